@@ -1,0 +1,174 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::error::{ContextKind, ErrorKind};
+use clap::{Args, Parser, Subcommand};
+
+use crate::failure::Failure;
+
+/// Fair curves through points.
+#[derive(Debug, Parser)]
+#[command(name = "faircurve", version, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Solve drawings and fonts: find the curves and write them.
+    ///
+    /// Exit codes: 0, all solved as asked; 3, written, but something could not be met and was
+    /// relaxed (each named on stderr); 2, bad input, nothing written.
+    Solve(SolveArgs),
+    /// List the splines: parameters, joins, ends and claims.
+    List(ListArgs),
+    /// Help or the version, as text to show.
+    #[command(skip)]
+    Shown(String),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SolveArgs {
+    /// Drawings to solve; `-` is stdin. Several make one result.
+    #[arg(value_name = "IN", required = true)]
+    pub(crate) inputs: Vec<PathBuf>,
+
+    /// Solve every contour with this spline, whatever the documents say; `faircurve list` has the
+    /// names. Default: as the documents say, or `spiro`.
+    #[arg(long, value_name = "NAME", help_heading = "Solving")]
+    pub(crate) spline: Option<String>,
+
+    /// Set a parameter of the spline: that of --spline, or else every one that the documents name.
+    #[arg(long = "param", value_name = "K=V", help_heading = "Solving")]
+    pub(crate) params: Vec<String>,
+
+    /// Most that Béziers may deviate from the solved curves, in the drawing's units. Default:
+    /// 1/10000 of the glyph's larger side.
+    #[arg(
+        long,
+        value_name = "UNITS",
+        allow_negative_numbers = true,
+        help_heading = "Solving"
+    )]
+    pub(crate) accuracy: Option<String>,
+
+    /// Format of the input: json, csv or sfd. Default: by the file's extension; json for stdin.
+    #[arg(long, value_name = "KIND", help_heading = "Choosing")]
+    pub(crate) from: Option<String>,
+
+    /// Solve only the glyph of this name; may be given several times.
+    #[arg(long = "glyph", value_name = "NAME", help_heading = "Choosing")]
+    pub(crate) glyphs: Vec<String>,
+
+    /// Solve only this layer, such as `Fore`.
+    #[arg(long, value_name = "NAME", help_heading = "Choosing")]
+    pub(crate) layer: Option<String>,
+
+    /// Where to write; `-` is stdout. The file appears whole or not at all.
+    #[arg(
+        short,
+        long,
+        value_name = "OUT",
+        default_value = "-",
+        help_heading = "Writing"
+    )]
+    pub(crate) output: PathBuf,
+
+    /// What to write: `json` (the solution in numbers), `svg` or `png` (a picture), `path` (SVG
+    /// path data, y up, a line a glyph). Default: by the extension of OUT; json for stdout.
+    #[arg(long, value_name = "FORMAT", help_heading = "Writing")]
+    pub(crate) format: Option<String>,
+
+    /// Show these in a picture too: `knots`, `comb` (the curvature comb).
+    #[arg(
+        long,
+        value_name = "WHAT",
+        value_delimiter = ',',
+        help_heading = "Writing"
+    )]
+    pub(crate) show: Vec<String>,
+
+    /// Width of a PNG in pixels. Default: as wide as two million pixels allow.
+    #[arg(
+        long,
+        value_name = "PIXELS",
+        allow_negative_numbers = true,
+        help_heading = "Writing"
+    )]
+    pub(crate) width: Option<String>,
+
+    /// Add N equal steps of arc length to every segment of the JSON: rows of s, x, y, direction,
+    /// curvature.
+    #[arg(
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        help_heading = "Writing"
+    )]
+    pub(crate) samples: Option<String>,
+
+    /// Exit with 0 though something was relaxed.
+    #[arg(long)]
+    pub(crate) allow_relaxed: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ListArgs {
+    /// `text` or `json`.
+    #[arg(long, value_name = "FORMAT", default_value = "text")]
+    pub(crate) format: String,
+}
+
+/// Reads the command line.
+pub(crate) fn parse() -> Result<Command, Failure> {
+    match Cli::try_parse() {
+        Ok(cli) => Ok(cli.command),
+        Err(error) => match error.kind() {
+            ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
+                Ok(Command::Shown(error.render().ansi().to_string()))
+            }
+            ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => Err(Failure::new(
+                "there is no command",
+            )
+            .hint("try `faircurve solve drawing.json -o drawing.svg`, or `faircurve --help`")),
+            _ => Err(usage(&error)),
+        },
+    }
+}
+
+/// clap's message in the words of our own.
+fn usage(error: &clap::Error) -> Failure {
+    let text = error.render().to_string();
+    let paragraph = text.split("\n\n").next().unwrap_or_default();
+    let message = paragraph
+        .strip_prefix("error: ")
+        .unwrap_or(paragraph)
+        .replace('\'', "`");
+    let near = [
+        ContextKind::SuggestedArg,
+        ContextKind::SuggestedSubcommand,
+        ContextKind::SuggestedValue,
+    ];
+    let hint = match near.iter().find_map(|kind| error.get(*kind)) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => "see `faircurve --help` and `faircurve solve --help`".to_owned(),
+    };
+    Failure::new(message).hint(hint)
+}
+
+/// A number given on the command line, in a range.
+pub(crate) fn number<T>(
+    option: &str,
+    text: &str,
+    expected: &str,
+    allowed: impl Fn(&T) -> bool,
+) -> Result<T, Failure>
+where
+    T: std::str::FromStr,
+{
+    text.parse().ok().filter(allowed).ok_or_else(|| {
+        Failure::new(format!("--{option} can't be `{text}`")).hint(format!("it takes {expected}"))
+    })
+}

@@ -1,0 +1,58 @@
+//! `faircurve solve`.
+
+use std::process::ExitCode;
+
+use faircurve::Solution;
+use faircurve_format::SolvedGlyph;
+use rayon::prelude::*;
+
+use crate::args::{self, SolveArgs};
+use crate::failure::Failure;
+use crate::input;
+use crate::output::Output;
+use crate::progress::Progress;
+use crate::report;
+use crate::select::{self, Job};
+
+/// Read, select, solve, format, write, report.
+pub(crate) fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
+    let output = Output::new(args)?;
+    let accuracy = accuracy(args)?;
+    let sources = input::read(&args.inputs, args.from.as_deref())?;
+    let jobs = select::select(sources, args)?;
+    let solved = solve(&jobs, accuracy)?;
+    let bytes = output.format(&solved)?;
+    output.write(&bytes)?;
+    Ok(report::report(&jobs, &solved, args.allow_relaxed))
+}
+
+fn accuracy(args: &SolveArgs) -> Result<Option<f64>, Failure> {
+    let allowed = |units: &f64| *units > 0.0 && units.is_finite();
+    let read = |text: &str| args::number("accuracy", text, "a number of units above 0", allowed);
+    args.accuracy.as_deref().map(read).transpose()
+}
+
+/// Solves every glyph, over all cores. The first input that is at fault fails the whole.
+fn solve(jobs: &[Job], accuracy: Option<f64>) -> Result<Vec<SolvedGlyph>, Failure> {
+    let progress = Progress::new(jobs.len());
+    let solve = |job: &Job| {
+        let glyph = solve_glyph(job, accuracy);
+        progress.step();
+        glyph
+    };
+    let solved: Vec<Result<SolvedGlyph, Failure>> = jobs.par_iter().map(solve).collect();
+    solved.into_iter().collect()
+}
+
+fn solve_glyph(job: &Job, accuracy: Option<f64>) -> Result<SolvedGlyph, Failure> {
+    let solve = |(index, (contour, spline)): (usize, &(_, Box<dyn faircurve::Spline>))| {
+        let solution: Solution = faircurve::solve(contour, &**spline).map_err(|error| {
+            Failure::new(error.to_string())
+                .hint(error.hint())
+                .within(&job.place(index))
+        })?;
+        Ok((spline.name().to_owned(), solution))
+    };
+    let contours: Result<Vec<_>, Failure> = job.contours.iter().enumerate().map(solve).collect();
+    Ok(SolvedGlyph::new(&job.name, &job.layer, contours?, accuracy))
+}

@@ -1,0 +1,362 @@
+//! The catalogue: every spline by name, with its parameters, joins and claims.
+//!
+//! Adding a family touches its own folder and one line of [`ENTRIES`].
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use crate::outline::Join;
+use crate::spline::Spline;
+
+use super::{euler, spiro};
+
+/// Every spline, in the order in which lists show them.
+pub const ENTRIES: &[&SplineInfo] = &[&spiro::INFO, &euler::INFO];
+
+/// A catalogue row: what a spline is called, what it takes and what it claims.
+#[derive(Debug)]
+pub struct SplineInfo {
+    /// The name used in documents and on the command line.
+    pub name: &'static str,
+    /// One line for lists.
+    pub summary: &'static str,
+    /// Where it is defined.
+    pub source: &'static str,
+    /// The parameters that it takes.
+    pub params: &'static [ParamSpec],
+    /// The join of a knot that names none.
+    pub default_join: Join,
+    /// The joins that it has; others are adapted.
+    pub joins: &'static [Join],
+    /// What holds at free ends, the default first.
+    pub ends: &'static [&'static str],
+    /// Properties of thesis chapter 2 that it claims (the laws test them).
+    pub claims: &'static [Claim],
+    /// Makes the spline from checked parameters.
+    pub build: fn(&Params) -> Box<dyn Spline>,
+}
+
+/// A property in the sense of thesis chapter 2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Claim {
+    /// Points on a circle give the circle (2.3).
+    Round,
+    /// A knot added on the curve doesn't change it (2.4).
+    Extensional,
+    /// Curvature is monotone between knots (2.9).
+    MonotoneCurvature,
+    /// Similarities carry the curve with them (2.7).
+    SimilarityInvariant,
+    /// Mirroring and travelling backwards carry the curve with them (2.7).
+    Symmetric,
+    /// Geometric continuity of this order at its default smooth join (2.2).
+    Continuity(u8),
+    /// Number of parameters of a segment (2.8).
+    Parameters(u8),
+}
+
+impl fmt::Display for Claim {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Claim::Round => f.write_str("round"),
+            Claim::Extensional => f.write_str("extensional"),
+            Claim::MonotoneCurvature => f.write_str("monotone-curvature"),
+            Claim::SimilarityInvariant => f.write_str("similarity-invariant"),
+            Claim::Symmetric => f.write_str("symmetric"),
+            Claim::Continuity(order) => write!(f, "g{order}"),
+            Claim::Parameters(count) => write!(f, "{count}-parameter"),
+        }
+    }
+}
+
+/// A parameter that a spline takes.
+#[derive(Debug)]
+pub struct ParamSpec {
+    /// The name used in documents and on the command line.
+    pub name: &'static str,
+    /// One line for lists.
+    pub summary: &'static str,
+    /// What values it takes.
+    pub kind: ParamKind,
+}
+
+/// The values that a parameter takes, with the default.
+#[derive(Debug)]
+pub enum ParamKind {
+    /// A number in `min ..= max`.
+    Number {
+        /// The value when none is given.
+        default: f64,
+        /// The smallest value allowed.
+        min: f64,
+        /// The largest value allowed.
+        max: f64,
+    },
+    /// One of some words.
+    Choice {
+        /// The words; the first is the default.
+        options: &'static [&'static str],
+    },
+}
+
+/// A parameter's value as given.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ParamValue {
+    /// A number.
+    Number(f64),
+    /// A word.
+    Text(String),
+}
+
+impl fmt::Display for ParamValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ParamValue::Number(number) => write!(f, "{number}"),
+            ParamValue::Text(text) => f.write_str(text),
+        }
+    }
+}
+
+impl From<&str> for ParamValue {
+    /// Reads a number where the text is one, as on a command line.
+    fn from(text: &str) -> Self {
+        match text.parse::<f64>() {
+            Ok(number) => ParamValue::Number(number),
+            Err(_) => ParamValue::Text(text.to_owned()),
+        }
+    }
+}
+
+/// Parameters by name.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Params(BTreeMap<String, ParamValue>);
+
+impl Params {
+    /// No parameters: every default.
+    pub fn new() -> Self {
+        Params::default()
+    }
+
+    /// The same with one more set.
+    pub fn with(mut self, name: &str, value: impl Into<ParamValue>) -> Self {
+        self.set(name, value);
+        self
+    }
+
+    /// Sets one.
+    pub fn set(&mut self, name: &str, value: impl Into<ParamValue>) {
+        self.0.insert(name.to_owned(), value.into());
+    }
+
+    /// What is set, by name.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &ParamValue)> {
+        self.0.iter().map(|(name, value)| (name.as_str(), value))
+    }
+
+    /// Whether every parameter has its default.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The word chosen for `name`, or `default`. For use in [`SplineInfo::build`], after checking.
+    pub fn choice<'a>(&'a self, name: &str, default: &'a str) -> &'a str {
+        match self.0.get(name) {
+            Some(ParamValue::Text(text)) => text,
+            _ => default,
+        }
+    }
+
+    /// The number given for `name`, or `default`. For use in [`SplineInfo::build`], after checking.
+    pub fn number(&self, name: &str, default: f64) -> f64 {
+        match self.0.get(name) {
+            Some(ParamValue::Number(number)) => *number,
+            _ => default,
+        }
+    }
+}
+
+impl From<f64> for ParamValue {
+    fn from(number: f64) -> Self {
+        ParamValue::Number(number)
+    }
+}
+
+/// Why the catalogue can't make a spline.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CatalogError {
+    /// No spline of that name.
+    UnknownSpline {
+        /// The name asked for.
+        asked: String,
+    },
+    /// The spline has no parameter of that name.
+    UnknownParam {
+        /// The spline.
+        spline: &'static str,
+        /// The name asked for.
+        asked: String,
+    },
+    /// The parameter doesn't take that value.
+    BadValue {
+        /// The spline.
+        spline: &'static str,
+        /// The parameter.
+        param: &'static str,
+        /// The value given.
+        value: String,
+        /// What it takes instead.
+        expected: String,
+    },
+}
+
+impl fmt::Display for CatalogError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            CatalogError::UnknownSpline { asked } => write!(f, "there is no spline `{asked}`"),
+            CatalogError::UnknownParam { spline, asked } => {
+                write!(f, "spline `{spline}` has no parameter `{asked}`")
+            }
+            CatalogError::BadValue {
+                spline,
+                param,
+                value,
+                ..
+            } => {
+                write!(
+                    f,
+                    "parameter `{param}` of spline `{spline}` can't be `{value}`"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for CatalogError {}
+
+impl CatalogError {
+    /// What to do about it.
+    pub fn hint(&self) -> String {
+        match self {
+            CatalogError::UnknownSpline { asked } => {
+                suggest(asked, ENTRIES.iter().map(|info| info.name))
+            }
+            CatalogError::UnknownParam { spline, asked } => {
+                let info = ENTRIES.iter().find(|info| info.name == *spline);
+                let params = info.map_or(&[][..], |info| info.params);
+                if params.is_empty() {
+                    format!("`{spline}` takes no parameters; leave it out")
+                } else {
+                    suggest(asked, params.iter().map(|param| param.name))
+                }
+            }
+            CatalogError::BadValue { expected, .. } => format!("it takes {expected}"),
+        }
+    }
+}
+
+/// The row of that name.
+///
+/// # Errors
+/// [`CatalogError::UnknownSpline`].
+pub fn find(name: &str) -> Result<&'static SplineInfo, CatalogError> {
+    ENTRIES
+        .iter()
+        .copied()
+        .find(|info| info.name == name)
+        .ok_or_else(|| CatalogError::UnknownSpline {
+            asked: name.to_owned(),
+        })
+}
+
+/// The spline of that name with every default.
+///
+/// # Errors
+/// [`CatalogError::UnknownSpline`].
+pub fn spline(name: &str) -> Result<Box<dyn Spline>, CatalogError> {
+    build(name, &Params::new())
+}
+
+/// The spline of that name with the given parameters.
+///
+/// # Errors
+/// [`CatalogError`] if the name, a parameter's name or its value isn't one that the catalogue has.
+pub fn build(name: &str, params: &Params) -> Result<Box<dyn Spline>, CatalogError> {
+    let info = find(name)?;
+    for (asked, value) in params.iter() {
+        let spec = info
+            .params
+            .iter()
+            .find(|spec| spec.name == asked)
+            .ok_or_else(|| CatalogError::UnknownParam {
+                spline: info.name,
+                asked: asked.to_owned(),
+            })?;
+        spec.check(value)
+            .map_err(|expected| CatalogError::BadValue {
+                spline: info.name,
+                param: spec.name,
+                value: value.to_string(),
+                expected,
+            })?;
+    }
+    Ok((info.build)(params))
+}
+
+impl ParamSpec {
+    /// Whether it takes this value; if not, the words for what it takes.
+    fn check(&self, value: &ParamValue) -> Result<(), String> {
+        match (&self.kind, value) {
+            (ParamKind::Number { min, max, .. }, ParamValue::Number(number))
+                if (min..=max).contains(&number) =>
+            {
+                Ok(())
+            }
+            (ParamKind::Number { min, max, .. }, _) => Err(format!("a number from {min} to {max}")),
+            (ParamKind::Choice { options }, ParamValue::Text(text))
+                if options.contains(&text.as_str()) =>
+            {
+                Ok(())
+            }
+            (ParamKind::Choice { options }, _) => Err(one_of(options.iter().copied())),
+        }
+    }
+}
+
+/// Words that name the candidates nearest to what was asked, or all of them.
+///
+/// ```
+/// use faircurve::catalog::suggest;
+/// assert_eq!(suggest("spirro", ["spiro", "euler"]), "did you mean `spiro`?");
+/// assert_eq!(suggest("xyz", ["spiro", "euler"]), "use one of `spiro`, `euler`");
+/// ```
+pub fn suggest<'a>(asked: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
+    // Below 0.7 Jaro–Winkler calls unrelated words alike.
+    const ALIKE: f64 = 0.75;
+    let candidates: Vec<&str> = candidates.into_iter().collect();
+    let asked_lower = asked.to_lowercase();
+    let likeness = |candidate: &str| strsim::jaro_winkler(&asked_lower, &candidate.to_lowercase());
+    let mut near: Vec<(f64, &str)> = candidates
+        .iter()
+        .map(|candidate| (likeness(candidate), *candidate))
+        .filter(|(likeness, _)| *likeness > ALIKE)
+        .collect();
+    near.sort_by(|a, b| b.0.total_cmp(&a.0));
+    near.truncate(3);
+    match near.as_slice() {
+        [] if candidates.is_empty() => "leave it out".to_owned(),
+        [] => format!("use {}", one_of(candidates)),
+        [only] => format!("did you mean `{}`?", only.1),
+        several => format!(
+            "did you mean {}?",
+            one_of(several.iter().map(|(_, name)| *name))
+        ),
+    }
+}
+
+fn one_of<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
+    let quoted: Vec<String> = words.into_iter().map(|word| format!("`{word}`")).collect();
+    match quoted.as_slice() {
+        [only] => only.clone(),
+        several => format!("one of {}", several.join(", ")),
+    }
+}

@@ -1,0 +1,259 @@
+//! The Euler spiral spline: segments whose curvature is linear in arc length, joined with
+//! continuous curvature (thesis sections 4.6, 8.2, 8.3.1).
+
+use std::f64::consts::{PI, TAU};
+
+use kurbo::Point;
+
+use super::catalog::{Claim, ParamKind, ParamSpec, Params, SplineInfo};
+use super::spiro::PolynomialSpirals;
+use crate::four_param::spline::ConstraintSpline;
+use crate::frame::{ChordAngles, EndCurvature};
+use crate::numeric::spiro_integral::{SpiroMoments, spiro_moments};
+use crate::outline::Join;
+use crate::plan::Run;
+use crate::segment::{PolynomialSpiral, Segment};
+use crate::spline::{RunSolution, Spline};
+use crate::tolerance::{LOOP, SOLVED};
+use crate::two_param::family::{EndCurvatures, NaturalEnd, TwoParamFamily};
+use crate::two_param::spline::TwoParamSpline;
+
+/// The catalogue's row.
+pub const INFO: SplineInfo = SplineInfo {
+    name: "euler",
+    summary: "Euler spirals with continuous curvature",
+    source: "thesis 4.6, 8.2, 8.3.1",
+    params: &[ParamSpec {
+        name: "end",
+        summary: "what holds at free ends: a circular arc, or zero curvature",
+        kind: ParamKind::Choice {
+            options: &["arc", "zero-curvature"],
+        },
+    }],
+    default_join: Join::G2,
+    joins: &[Join::Corner, Join::G1, Join::G2],
+    ends: &["arc", "zero-curvature"],
+    claims: &[
+        Claim::Parameters(2),
+        Claim::Continuity(2),
+        Claim::Round,
+        Claim::Extensional,
+        Claim::MonotoneCurvature,
+        Claim::SimilarityInvariant,
+        Claim::Symmetric,
+    ],
+    build: |params| Box::new(Euler::from_params(params)),
+};
+
+/// The Euler spiral spline.
+#[derive(Clone, Copy, Debug)]
+pub struct Euler {
+    end: NaturalEnd,
+}
+
+impl Default for Euler {
+    fn default() -> Self {
+        Euler {
+            end: NaturalEnd::Arc,
+        }
+    }
+}
+
+impl Euler {
+    /// The same run for a four-parameter spline whose G2 segments are Euler spirals.
+    fn as_g2(&self, run: &Run) -> Run {
+        let mut run = run.clone();
+        let last = run.knots.len() - 1;
+        for (i, knot) in run.knots.iter_mut().enumerate() {
+            knot.join = Join::G2;
+            let is_end = !run.closed && (i == 0 || i == last);
+            knot.curvature = match (is_end, knot.tangent, self.end) {
+                (true, None, NaturalEnd::ZeroCurvature) => knot.curvature.or(Some(0.0)),
+                (true, None, NaturalEnd::Arc) => knot.curvature,
+                _ => None,
+            };
+        }
+        run
+    }
+
+    fn from_params(params: &Params) -> Self {
+        let end = match params.choice("end", "arc") {
+            "zero-curvature" => NaturalEnd::ZeroCurvature,
+            _ => NaturalEnd::Arc,
+        };
+        Euler { end }
+    }
+}
+
+impl Spline for Euler {
+    fn name(&self) -> &'static str {
+        INFO.name
+    }
+
+    fn default_join(&self) -> Join {
+        INFO.default_join
+    }
+
+    fn adapt(&self, join: Join) -> Join {
+        match join {
+            Join::Corner | Join::G1 => join,
+            Join::G2 | Join::G4 | Join::CurveToTerminal | Join::TerminalToCurve => Join::G2,
+        }
+    }
+
+    fn solve_run(&self, run: &Run) -> RunSolution {
+        let solved = TwoParamSpline::new(*self).solve_run(run);
+        let loops = solved
+            .segments
+            .iter()
+            .any(|s| s.length() > LOOP * s.chord_length());
+        if solved.residual <= SOLVED && !loops {
+            return solved;
+        }
+        // Tangents alone can't leave the principal square of chord angles; the wider search over
+        // windings is that of the polynomial spirals, of which all-G2 runs are Euler spirals.
+        let wider = ConstraintSpline::new(PolynomialSpirals).solve_run(&self.as_g2(run));
+        RunSolution {
+            adapted: solved.adapted,
+            iterations: solved.iterations + wider.iterations,
+            ..wider
+        }
+    }
+}
+
+impl TwoParamFamily for Euler {
+    fn curvatures(&self, angles: ChordAngles) -> EndCurvatures {
+        match fit(angles) {
+            Some(fit) => fit.curvatures(),
+            // Only at (π, π), which `limit` excludes; a circle of unit circumference is its limit.
+            None => EndCurvatures {
+                value: [EndCurvature::finite(0.0); 2],
+                by_angle: [[EndCurvature { num: 1.0, den: 0.0 }; 2]; 2],
+            },
+        }
+    }
+
+    fn shape(&self, start: Point, end: Point, angles: ChordAngles) -> Segment {
+        match fit_euler(angles) {
+            Some(spiral) => Segment::spiral(start, end, spiral),
+            None => Segment::line(start, end),
+        }
+    }
+
+    fn natural_end(&self) -> NaturalEnd {
+        self.end
+    }
+
+    fn limit(&self) -> f64 {
+        // Beyond, segments close into whole circles whose chord is lost in rounding.
+        PI - 0.01
+    }
+}
+
+/// The Euler spiral with these end tangents relative to its chord (thesis section 8.2): k₀ and k₁
+/// of eq. 8.16, for arc length 1.
+///
+/// Defined over the whole square |θ| ≤ π but for its two corners (π, π) and (−π, −π), where the
+/// spiral closes into a circle without a chord: `None` there, for larger angles and for NaN. Of
+/// the many windings it is the one that continues the straight line. k₁ is accurate to
+/// 1e-13·(1 + |k₁|).
+///
+/// ```
+/// use faircurve::{families::euler::fit_euler, frame::ChordAngles};
+/// let arc = fit_euler(ChordAngles::new(0.5, 0.5)).unwrap();
+/// assert_eq!(arc.k, [1.0, 0.0, 0.0, 0.0]);
+/// assert!(fit_euler(ChordAngles::new(std::f64::consts::PI, std::f64::consts::PI)).is_none());
+/// ```
+pub fn fit_euler(angles: ChordAngles) -> Option<PolynomialSpiral> {
+    fit(angles).map(|fit| PolynomialSpiral::new([fit.k0, fit.k1, 0.0, 0.0]))
+}
+
+/// A fitted spiral with the moments at the solution.
+struct Fit {
+    k0: f64,
+    k1: f64,
+    moments: SpiroMoments,
+}
+
+/// Solves D + 2ψ(k₁) = k₁/4 (the difference of eq. 8.22 and 8.23) for k₁; k₀ = θ₀ + θ₁ is exact
+/// (eq. 8.24).
+///
+/// The thesis uses the secant method; with ∂ψ/∂k₁ = ½ Re(M₂/M₀) and the next derivative at hand,
+/// Halley's takes two or three evaluations.
+fn fit(angles: ChordAngles) -> Option<Fit> {
+    /// Far more than ever needed; each step at least halves the bracket or is Halley's.
+    const MOST_STEPS: usize = 60;
+    let ChordAngles { theta0, theta1 } = angles;
+    if !(theta0.abs() <= PI && theta1.abs() <= PI)
+        || theta0.abs() + theta1.abs() == TAU && theta0 == theta1
+    {
+        return None;
+    }
+    let (k0, difference) = (theta0 + theta1, theta1 - theta0);
+    // Thesis figure 8.3 (the text above it has a slip): 6D(1 − x³), x = |k₀|/2π.
+    let x = k0.abs() / TAU;
+    let mut k1 = 6.0 * difference * (1.0 - x * x * x);
+    let mut best: Option<(f64, Fit)> = None;
+    for _ in 0..MOST_STEPS {
+        let moments = spiro_moments([k0, k1, 0.0, 0.0]);
+        let inverse = moments.integral().inv();
+        let (r2, r4) = (moments.0[2] * inverse, moments.0[4] * inverse);
+        let error = difference + 2.0 * moments.integral().arg() - k1 / 4.0;
+        let slope = r2.re - 0.25;
+        let bend = -(r4 - r2 * r2).im / 2.0;
+        let magnitude = error.abs();
+        if best.as_ref().is_none_or(|(least, _)| magnitude < *least) {
+            best = Some((magnitude, Fit { k0, k1, moments }));
+        } else if magnitude < 1e-9 {
+            break;
+        }
+        let newton = -error / slope;
+        let halley = newton / (1.0 + 0.5 * newton * bend / slope);
+        let step = if (halley / newton - 1.0).abs() < 0.5 {
+            halley
+        } else {
+            newton
+        };
+        if !(step.abs() > 1e-15 * (1.0 + k1.abs())) {
+            break;
+        }
+        k1 += step.clamp(-4.0, 4.0);
+    }
+    best.map(|(_, fit)| fit)
+}
+
+impl Fit {
+    /// End curvatures for unit chord, c·(k₀ ∓ k₁/2), and their derivatives by the end tangents.
+    fn curvatures(&self) -> EndCurvatures {
+        let m0 = self.moments.integral();
+        let c = m0.norm_sqr().sqrt();
+        let inverse = m0.inv();
+        // d(log c + iψ) by k₀ and k₁.
+        let by_k0 = self.moments.derivative(0) * inverse;
+        let by_k1 = self.moments.derivative(1) * inverse;
+        // k₁/4 = D + 2ψ(k₀, k₁): dk₁ by T and D.
+        let slope = 0.25 - 2.0 * by_k1.im;
+        let (k1_by_t, k1_by_d) = (2.0 * by_k0.im / slope, 1.0 / slope);
+        // By theta0 (dT = 1, dD = −1) and theta1 (dT = 1, dD = 1).
+        let k1_by = [k1_by_t - k1_by_d, k1_by_t + k1_by_d];
+        let at_end = |s: f64| {
+            let curvature = self.k0 + s * self.k1;
+            let by_angle = k1_by.map(|k1_by| {
+                let log_c = by_k0.re + by_k1.re * k1_by;
+                EndCurvature {
+                    num: c * (1.0 + s * k1_by + curvature * log_c),
+                    den: 0.0,
+                }
+            });
+            (EndCurvature::finite(c * curvature), by_angle)
+        };
+        let (start, end) = (at_end(-0.5), at_end(0.5));
+        EndCurvatures {
+            value: [start.0, end.0],
+            by_angle: [start.1, end.1],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

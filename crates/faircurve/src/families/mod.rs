@@ -1,0 +1,5 @@
+//! The splines, one folder each, and the catalogue that names them.
+
+pub mod catalog;
+pub mod euler;
+pub mod spiro;

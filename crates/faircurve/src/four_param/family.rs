@@ -1,0 +1,43 @@
+//! The rung of four-parameter families: what the spline solver sees of a segment.
+
+use kurbo::Point;
+
+use crate::segment::Segment;
+
+/// Tangents and curvatures at a segment's ends for unit chord, with the curvature derivatives that
+/// follow from them, and how all respond to a change.
+///
+/// Order of the four *jets*: `theta0`, `theta1` (see [`ChordAngles`](crate::frame::ChordAngles)), κ at the start,
+/// κ at the end. Order of the four *derivatives*: κ′ and κ″ at the start, κ′ and κ″ at the end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Response {
+    /// The jets of the present segment.
+    pub jets: [f64; 4],
+    /// Its derivatives.
+    pub derivatives: [f64; 4],
+    /// ∂(derivatives)/∂(jets), by rows.
+    pub derivatives_by_jets: [[f64; 4]; 4],
+    /// ∂(the family's own parameters)/∂(jets), by rows.
+    pub parameters_by_jets: [[f64; 4]; 4],
+    /// Chord over arc length, in [0, 1].
+    pub straightness: f64,
+}
+
+/// Curves with four parameters for given ends, such as polynomial spirals or minimum variation
+/// curves. Parameters are the family's own business; all zero must be the straight line.
+pub trait FourParamFamily {
+    /// The ends of the segment with these parameters, for unit chord.
+    fn respond(&self, parameters: [f64; 4]) -> Response;
+
+    /// The parameters of the segment with these end tangents and κ″ = 0 at both ends (`theta0` and
+    /// `theta1` as at [`ChordAngles`](crate::frame::ChordAngles), within ±π): what G1 knots are joined by. Must always
+    /// be drawable.
+    fn between_tangents(&self, theta0: f64, theta1: f64) -> [f64; 4];
+
+    /// The segment from `start` to `end` with these parameters.
+    fn shape(&self, start: Point, end: Point, parameters: [f64; 4]) -> Segment;
+
+    /// The largest change of direction, in radians, that a change of parameters makes anywhere on
+    /// the segment (an upper bound), by which steps are limited.
+    fn bend(&self, change: [f64; 4]) -> f64;
+}

@@ -1,0 +1,439 @@
+//! The equations of a four-parameter spline over one run (thesis section 8.3.2, reorganised).
+//!
+//! Each segment carries its own parameters as the state, so that it always meets its end *points*;
+//! what doesn't hold yet shows at the knots, as a mismatch of direction, curvature and so on. The
+//! unknowns of a Newton step are one direction and one curvature a knot: each segment's
+//! four parameters follow from those at its two ends, and each knot's other two conditions are the
+//! equations. Whatever the joins, that is the same block tridiagonal system with blocks of 2.
+
+use super::constraint_table::{self as table, Condition, Quantity, SegmentConstraints, Side};
+use super::family::{FourParamFamily, Response};
+use crate::frame::{direction, wrap_angle};
+use crate::numeric::block_tridiagonal::BlockTridiagonal;
+use crate::numeric::newton::System;
+use crate::outline::Join;
+use crate::plan::Run;
+
+/// An equation at a knot, beside continuity of direction and curvature.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Equation {
+    /// A condition of the table, about κ′ or κ″.
+    Condition(Condition),
+    /// The direction is given: this angle from the knot's own side (`theta0` on the right side,
+    /// `theta1` at the end of an open run).
+    Direction(f64),
+    /// The curvature is given, in the run's units.
+    Curvature(f64),
+}
+
+/// A knot of the run.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SystemKnot {
+    /// The two equations.
+    pub equations: [Equation; 2],
+    /// Turning from the chord before to the chord after. Not wrapped: another winding is another
+    /// curve.
+    pub turn: f64,
+    /// Harmonic mean of the two chords: the length that makes equations dimensionless.
+    h: f64,
+}
+
+/// The equations of a run, with the state of its segments.
+pub(super) struct RunSystem<'a, F> {
+    family: &'a F,
+    pub knots: Vec<SystemKnot>,
+    chords: Vec<f64>,
+    /// The family's parameters of each segment: the state.
+    pub parameters: Vec<[f64; 4]>,
+    responses: Vec<Response>,
+    /// Mismatch at each knot of direction, and of curvature times h: right side minus left.
+    mismatch: Vec<[f64; 2]>,
+    closed: bool,
+}
+
+impl<'a, F: FourParamFamily> RunSystem<'a, F> {
+    /// The equations of `run`, from straight segments.
+    pub(super) fn new(family: &'a F, run: &Run) -> Self {
+        let n = run.knots.len();
+        let segments = run.segment_count();
+        let chords: Vec<f64> = (0..segments).map(|i| run.chord(i).hypot()).collect();
+        let knots = (0..n)
+            .map(|i| {
+                let (left, right) = neighbours(i, n, run.closed);
+                let h = match (left, right) {
+                    (Some(l), Some(r)) => 2.0 * chords[l] * chords[r] / (chords[l] + chords[r]),
+                    (Some(only), None) | (None, Some(only)) => chords[only],
+                    (None, None) => 1.0,
+                };
+                let (equations, turn) = equations(run, i, left, right);
+                SystemKnot { equations, turn, h }
+            })
+            .collect();
+        RunSystem {
+            family,
+            knots,
+            chords,
+            parameters: vec![[0.0; 4]; segments],
+            responses: Vec::with_capacity(segments),
+            mismatch: vec![[0.0; 2]; n],
+            closed: run.closed,
+        }
+    }
+
+    /// The segments' independent constraints, for cleaning up rounding.
+    pub(super) fn constraints(&self, segment: usize) -> SegmentConstraints {
+        let n = self.knots.len();
+        let conditions = |knot: &SystemKnot| -> Vec<Condition> {
+            knot.equations
+                .iter()
+                .filter_map(|equation| match equation {
+                    Equation::Condition(condition) => Some(*condition),
+                    _ => None,
+                })
+                .collect()
+        };
+        SegmentConstraints::between(
+            &conditions(&self.knots[segment]),
+            &conditions(&self.knots[(segment + 1) % n]),
+        )
+    }
+
+    /// Residual of one knot: the largest of its mismatches and equations.
+    pub(super) fn knot_residual(&self, i: usize) -> f64 {
+        let values = self.knots[i]
+            .equations
+            .map(|equation| self.value(i, equation).abs());
+        let [direction, curvature] = self.mismatch[i].map(f64::abs);
+        direction.max(curvature).max(values[0]).max(values[1])
+    }
+
+    /// A system of its own for the knots `from ..= to`, around the end if `to` isn't greater, with
+    /// directions and curvatures at its rim held as the segments beyond have them now.
+    pub(super) fn window(&self, from: usize, to: usize) -> Self {
+        let n = self.knots.len();
+        let count = if to > from { to - from } else { to + n - from };
+        let knot = |i: usize| (from + i) % n;
+        let mut knots: Vec<SystemKnot> = (0..=count).map(|i| self.knots[knot(i)]).collect();
+        // What the neighbours beyond the rim say holds, not what lies within.
+        if self.closed || from > 0 {
+            let before = if from > 0 { from - 1 } else { n - 1 };
+            let jets = &self.responses[before].jets;
+            knots[0].equations = [
+                Equation::Direction(self.knots[from].turn - jets[1]),
+                Equation::Curvature(jets[3] / self.chords[before]),
+            ];
+        }
+        if self.closed || to + 1 < n {
+            let jets = &self.responses[to].jets;
+            knots[count].equations = [
+                Equation::Direction(self.knots[to].turn - jets[0]),
+                Equation::Curvature(jets[2] / self.chords[to]),
+            ];
+        }
+        RunSystem {
+            family: self.family,
+            chords: (0..count).map(|i| self.chords[knot(i)]).collect(),
+            parameters: (0..count).map(|i| self.parameters[knot(i)]).collect(),
+            responses: Vec::with_capacity(count),
+            mismatch: vec![[0.0; 2]; count + 1],
+            knots,
+            closed: false,
+        }
+    }
+
+    /// Takes over the state of a window that starts at knot `from`.
+    pub(super) fn adopt(&mut self, window: &Self, from: usize) {
+        let n = self.knots.len();
+        for (i, parameters) in window.parameters.iter().enumerate() {
+            self.parameters[(from + i) % n] = *parameters;
+        }
+        for (i, knot) in window.knots.iter().enumerate() {
+            self.knots[(from + i) % n].turn = knot.turn;
+        }
+    }
+
+    /// A copy of the whole system.
+    pub(super) fn whole(&self) -> Self {
+        RunSystem {
+            family: self.family,
+            knots: self.knots.clone(),
+            chords: self.chords.clone(),
+            parameters: self.parameters.clone(),
+            responses: self.responses.clone(),
+            mismatch: self.mismatch.clone(),
+            closed: self.closed,
+        }
+    }
+
+    /// Whether the last knot joins the first.
+    pub(super) fn is_closed(&self) -> bool {
+        self.closed
+    }
+
+    /// Chord over arc length of each segment, as of the last linearisation.
+    pub(super) fn straightness(&self, segment: usize) -> f64 {
+        self.responses[segment].straightness
+    }
+
+    /// Computes responses and mismatches of the present state.
+    pub(super) fn evaluate(&mut self) {
+        let n = self.knots.len();
+        self.responses.clear();
+        self.responses
+            .extend(self.parameters.iter().map(|p| self.family.respond(*p)));
+        for i in 0..n {
+            let (left, right) = neighbours(i, n, self.closed);
+            self.mismatch[i] = match (left, right) {
+                (Some(l), Some(r)) => {
+                    let (before, after) = (&self.responses[l].jets, &self.responses[r].jets);
+                    let knot = &self.knots[i];
+                    [
+                        knot.turn - after[0] - before[1],
+                        (after[2] / self.chords[r] - before[3] / self.chords[l]) * knot.h,
+                    ]
+                }
+                _ => [0.0; 2],
+            };
+        }
+    }
+
+    /// What `equation` is off by at knot `i`.
+    fn value(&self, i: usize, equation: Equation) -> f64 {
+        let n = self.knots.len();
+        let (left, right) = neighbours(i, n, self.closed);
+        let knot = &self.knots[i];
+        match equation {
+            Equation::Direction(angle) => match (left, right) {
+                (_, Some(r)) => self.responses[r].jets[0] - angle,
+                (Some(l), None) => angle - self.responses[l].jets[1],
+                (None, None) => 0.0,
+            },
+            Equation::Curvature(curvature) => {
+                let own = match (left, right) {
+                    (_, Some(r)) => self.responses[r].jets[2] / self.chords[r],
+                    (Some(l), None) => self.responses[l].jets[3] / self.chords[l],
+                    (None, None) => curvature,
+                };
+                (own - curvature) * knot.h
+            }
+            Equation::Condition(condition) => {
+                let side = |side: Side, order: usize| match (side, left, right) {
+                    (Side::Left, Some(l), _) => {
+                        self.responses[l].derivatives[1 + order] * self.weight(i, l, order)
+                    }
+                    (Side::Right, _, Some(r)) => {
+                        self.responses[r].derivatives[order - 1] * self.weight(i, r, order)
+                    }
+                    _ => 0.0,
+                };
+                let (order, signs) = condition_terms(condition);
+                signs[1] * side(Side::Right, order) + signs[0] * side(Side::Left, order)
+            }
+        }
+    }
+
+    /// (h/chord)^(order + 1): from unit chord to the knot's own scale.
+    fn weight(&self, knot: usize, segment: usize, order: usize) -> f64 {
+        let ratio = self.knots[knot].h / self.chords[segment];
+        if order == 1 {
+            ratio * ratio
+        } else {
+            ratio * ratio * ratio
+        }
+    }
+}
+
+impl<F: FourParamFamily> System<2> for RunSystem<'_, F> {
+    fn linearize(&mut self, matrix: &mut BlockTridiagonal<2>) -> f64 {
+        self.evaluate();
+        let n = self.knots.len();
+        let mut residual = 0.0f64;
+        for i in 0..n {
+            let (left, right) = neighbours(i, n, self.closed);
+            let (mut lower, mut diagonal, mut upper) =
+                ([[0.0; 2]; 2], [[0.0; 2]; 2], [[0.0; 2]; 2]);
+            let mut values = [0.0; 2];
+            for (row, equation) in self.knots[i].equations.into_iter().enumerate() {
+                values[row] = -self.value(i, equation);
+                let condition = match equation {
+                    // Unknowns are changes of the right side (of the left one at an open end).
+                    Equation::Direction(_) => {
+                        diagonal[row][0] = -1.0;
+                        continue;
+                    }
+                    Equation::Curvature(_) => {
+                        diagonal[row][1] = 1.0;
+                        continue;
+                    }
+                    Equation::Condition(condition) => condition,
+                };
+                let (order, signs) = condition_terms(condition);
+                // The left segment: its start is knot i − 1, its end this knot.
+                if let (Some(l), true) = (left, signs[0] != 0.0) {
+                    let weight = signs[0] * self.weight(i, l, order);
+                    let by_jets = self.responses[l].derivatives_by_jets[1 + order];
+                    let before = if i == 0 { n - 1 } else { i - 1 };
+                    let to_end = [by_jets[1], by_jets[3] * self.chords[l] / self.knots[i].h];
+                    lower[row][0] -= weight * by_jets[0];
+                    lower[row][1] += weight * by_jets[2] * self.chords[l] / self.knots[before].h;
+                    diagonal[row][0] += weight * to_end[0];
+                    diagonal[row][1] += weight * to_end[1];
+                    values[row] -= weight
+                        * (to_end[0] * self.mismatch[i][0] + to_end[1] * self.mismatch[i][1]);
+                }
+                // The right segment: its start is this knot, its end knot i + 1.
+                if let (Some(r), true) = (right, signs[1] != 0.0) {
+                    let weight = signs[1] * self.weight(i, r, order);
+                    let by_jets = self.responses[r].derivatives_by_jets[order - 1];
+                    let after = if i + 1 == n { 0 } else { i + 1 };
+                    let to_end = [
+                        by_jets[1],
+                        by_jets[3] * self.chords[r] / self.knots[after].h,
+                    ];
+                    diagonal[row][0] -= weight * by_jets[0];
+                    diagonal[row][1] += weight * by_jets[2] * self.chords[r] / self.knots[i].h;
+                    upper[row][0] += weight * to_end[0];
+                    upper[row][1] += weight * to_end[1];
+                    values[row] -= weight
+                        * (to_end[0] * self.mismatch[after][0]
+                            + to_end[1] * self.mismatch[after][1]);
+                }
+            }
+            residual = residual.max(self.knot_residual(i));
+            if self.knot_residual(i).is_nan() {
+                residual = f64::NAN;
+            }
+            matrix.lower[i] = lower;
+            matrix.diagonal[i] = diagonal;
+            matrix.upper[i] = upper;
+            matrix.right[i] = values;
+        }
+        residual
+    }
+
+    fn advance(&mut self, step: &[[f64; 2]]) -> f64 {
+        /// Largest bend of a segment in one step, in radians. Anything from ½ to 4 does about as well.
+        const CLAMP: f64 = 1.0;
+        let n = self.knots.len();
+        let mut size = 0.0f64;
+        for segment in 0..self.parameters.len() {
+            let (start, end) = (segment, (segment + 1) % n);
+            let chord = self.chords[segment];
+            let jets = [
+                -step[start][0],
+                step[end][0] + self.mismatch[end][0],
+                step[start][1] * chord / self.knots[start].h,
+                (step[end][1] + self.mismatch[end][1]) * chord / self.knots[end].h,
+            ];
+            let by_jets = &self.responses[segment].parameters_by_jets;
+            let mut change: [f64; 4] =
+                std::array::from_fn(|row| (0..4).map(|jet| by_jets[row][jet] * jets[jet]).sum());
+            let bend = self.family.bend(change);
+            size = size.max(bend);
+            if bend > CLAMP {
+                change = change.map(|change| change * CLAMP / bend);
+            }
+            if change.iter().all(|change| change.is_finite()) {
+                (0..4).for_each(|row| self.parameters[segment][row] += change[row]);
+            }
+        }
+        size
+    }
+}
+
+/// The segments before and after knot `i`.
+fn neighbours(i: usize, n: usize, closed: bool) -> (Option<usize>, Option<usize>) {
+    let left = if i > 0 {
+        Some(i - 1)
+    } else {
+        closed.then_some(n - 1)
+    };
+    let right = if i + 1 < n || closed { Some(i) } else { None };
+    (left, right)
+}
+
+/// Order of the derivative that a condition is about, and the signs of its left and right side.
+fn condition_terms(condition: Condition) -> (usize, [f64; 2]) {
+    let order = |quantity| {
+        if quantity == Quantity::FirstDerivative {
+            1
+        } else {
+            2
+        }
+    };
+    match condition {
+        Condition::Continuous(quantity) => (order(quantity), [-1.0, 1.0]),
+        Condition::Zero(Side::Left, quantity) => (order(quantity), [1.0, 0.0]),
+        Condition::Zero(Side::Right, quantity) => (order(quantity), [0.0, 1.0]),
+    }
+}
+
+/// The two equations of a knot and its turning angle.
+///
+/// What is given takes the place of a condition. At an end and on the straight side of a one-way
+/// join: first of κ′ = 0, then of κ″ = 0 (so that Euler spirals stay Euler spirals). At a G4 knot:
+/// a tangent that of continuous κ″, a curvature that of continuous κ′, which is what the minimum
+/// variation curve does (thesis 7.2). A G2 knot with a given curvature joins its sides by
+/// continuous κ″.
+fn equations(
+    run: &Run,
+    i: usize,
+    left: Option<usize>,
+    right: Option<usize>,
+) -> ([Equation; 2], f64) {
+    use Quantity::{FirstDerivative, SecondDerivative};
+    let knot = &run.knots[i];
+    let join = knot.join;
+    let turn = run.turning(i);
+    // A given direction as an angle from each chord; together they may choose another winding.
+    let from_chord = |segment: usize, tangent: f64| direction(run.chord(segment)) - tangent;
+    let given_direction = |tangent: f64| match (left, right) {
+        (Some(l), Some(r)) => {
+            let (arrive, leave) = (
+                -wrap_angle(from_chord(l, tangent)),
+                wrap_angle(from_chord(r, tangent)),
+            );
+            (Equation::Direction(leave), arrive + leave)
+        }
+        (None, Some(r)) => (
+            Equation::Direction(wrap_angle(from_chord(r, tangent))),
+            turn,
+        ),
+        (Some(l), None) => (
+            Equation::Direction(wrap_angle(-from_chord(l, tangent))),
+            turn,
+        ),
+        (None, None) => (Equation::Direction(0.0), turn),
+    };
+    let is_end = left.is_none() || right.is_none();
+    let rows = match (left, right, join) {
+        (None, _, _) => table::START,
+        (_, None, _) => table::END,
+        (_, _, Join::G2) if knot.curvature.is_some() => [
+            Condition::Continuous(SecondDerivative),
+            Condition::Continuous(FirstDerivative),
+        ],
+        (_, _, join) => {
+            let [_, _, first, second] = table::conditions(join);
+            [first, second]
+        }
+    };
+    let mut equations = rows.map(Equation::Condition);
+    let mut turn = turn;
+    // Which row gives way to a tangent; the other one is the next to go.
+    let tangent_row = if is_end || join != Join::G4 { 0 } else { 1 };
+    let mut taken = [false; 2];
+    if let Some(tangent) = knot.tangent {
+        (equations[tangent_row], turn) = given_direction(tangent);
+        taken[tangent_row] = true;
+    }
+    if let Some(curvature) = knot.curvature {
+        let row = match () {
+            () if !is_end && matches!(join, Join::G2) => 1,
+            () if taken[0] => 1,
+            () => 0,
+        };
+        equations[row] = Equation::Curvature(curvature);
+    }
+    (equations, turn)
+}

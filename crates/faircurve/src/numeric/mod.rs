@@ -1,0 +1,12 @@
+//! The numerical toolbox (thesis chapter 8): integrals, roots, linear systems, Newton's method.
+//!
+//! Nothing here knows of knots or splines.
+
+pub mod block_tridiagonal;
+pub mod fresnel;
+pub(crate) mod gauss_legendre;
+pub mod newton;
+pub mod roots;
+pub mod spiro_integral;
+pub mod spiro_series;
+pub(crate) mod trig;

@@ -1,0 +1,81 @@
+//! Sine and cosine together, without branches, so that loops over nodes vectorise and every
+//! platform computes the same bits.
+
+use std::f64::consts::FRAC_1_PI;
+
+/// π in two parts, the first with so few bits (33) that its product with a number of half turns
+/// below 2²⁰ is exact (Cody and Waite).
+const PI: [f64; 2] = [3.141_592_653_468_251_2, 1.215_420_101_301_238_4e-10];
+
+/// Adding this rounds a number below 2⁵¹ to an integer, which then stands in the low bits.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
+/// (sin r / r − 1) / r² by powers of r²: the polynomial that agrees with it at the eight Chebyshev
+/// nodes of 0 ≤ r² ≤ (π/2)²; with these rounded coefficients sin r is off by at most 4e-17.
+const SINE: [f64; 8] = [
+    -0.166_666_666_666_666_66,
+    0.008_333_333_333_333_316,
+    -0.000_198_412_698_412_549_74,
+    2.755_731_921_916_323_4e-6,
+    -2.505_210_761_699_618_2e-8,
+    1.605_897_731_246_408_7e-10,
+    -7.643_970_296_798_572e-13,
+    2.731_444_766_986_399_5e-15,
+];
+
+/// (cos r − 1) / r² likewise; cos r is off by at most 2e-17.
+const COSINE: [f64; 8] = [
+    -0.5,
+    0.041_666_666_666_666_34,
+    -0.001_388_888_888_886_070_9,
+    2.480_158_729_244_621_3e-5,
+    -2.755_731_776_732_053e-7,
+    2.087_663_086_742_299_4e-9,
+    -1.146_468_988_572_002_9e-11,
+    4.627_675_985_018_171_6e-14,
+];
+
+/// `(sin x, cos x)` to 3e-16 absolute for |x| ≤ 3·10⁶ and to x · 3e-16 up to 10¹⁵. Beyond that,
+/// the result has no meaning and need not be finite.
+#[inline(always)]
+pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
+    // x = half_turns · π + r, |r| ≤ π/2.
+    let shifted = x * FRAC_1_PI + ROUNDER;
+    let half_turns = shifted - ROUNDER;
+    let r = (x - half_turns * PI[0]) - half_turns * PI[1];
+    let q = r * r;
+    let q2 = q * q;
+    let q4 = q2 * q2;
+    // Estrin's order of operations: a shorter chain of dependent ones than Horner's.
+    let [c0, c1, c2, c3, c4, c5, c6, c7] = SINE;
+    let sine = ((c0 + c1 * q) + (c2 + c3 * q) * q2) + ((c4 + c5 * q) + (c6 + c7 * q) * q2) * q4;
+    let sine = r + r * (q * sine);
+    let [c0, c1, c2, c3, c4, c5, c6, c7] = COSINE;
+    let rest = ((c1 + c2 * q) + (c3 + c4 * q) * q2) + ((c5 + c6 * q) + c7 * q2) * q4;
+    let cosine = (1.0 + c0 * q) + rest * q2;
+    // An odd number of half turns negates both.
+    let sign = shifted.to_bits() << 63;
+    (
+        f64::from_bits(sine.to_bits() ^ sign),
+        f64::from_bits(cosine.to_bits() ^ sign),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn agrees_with_the_standard_library_over_decades() {
+        // The library's own value is rounded to half a last place of 1.
+        const BOUND: f64 = 3e-16 + 0.56e-16;
+        for decade in -12..=6 {
+            for i in 0..4000 {
+                let x = 10f64.powi(decade) * (f64::from(i) / 2000.0 - 1.0);
+                let (sin, cos) = sin_cos(x);
+                assert!((sin - x.sin()).abs() <= BOUND, "sin {x}: {sin} {}", x.sin());
+                assert!((cos - x.cos()).abs() <= BOUND, "cos {x}: {cos} {}", x.cos());
+            }
+        }
+    }
+}

@@ -1,0 +1,915 @@
+//! A contour made ready to be solved: what every spline needs settled, settled once.
+//!
+//! In order: numbers are checked; each knot's join is resolved (the spline's default, and its own
+//! smooth join where it lacks the one asked); coincident neighbours become one knot; start and
+//! direction become canonical, so that the result can't depend on them; position and size are
+//! normalised; straight segments are found; and the rest is split at corners into [`Run`]s.
+//! [`Plan::assemble`] puts the solved runs back together in the input's numbering.
+
+use std::fmt;
+
+use kurbo::{Point, Vec2};
+
+use crate::curve::Curve;
+use crate::frame::{circle_tangent, direction, turning, wrap_angle};
+use crate::outline::{Contour, Join, Knot};
+use crate::segment::Segment;
+use crate::spline::{
+    Adaptation, Place, Relaxation, RunSolution, Solution, SolveReport, SolvedKnot, Spline,
+};
+use crate::tolerance::{COINCIDENT, LARGEST_COORDINATE, SMALLEST_SIZE, STRAIGHT};
+
+/// A knot as a spline sees it: in the run's frame, with its join resolved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RunKnot {
+    /// Place, in the run's frame.
+    pub point: Point,
+    /// How the segments meet: [`Join::G2`], [`Join::G4`] or a one-way join. At the ends of an open
+    /// run, what joins it to what lies beyond; [`Join::Corner`] at the contour's own ends.
+    pub join: Join,
+    /// Direction given, in radians. At the ends of an open run: that of the end.
+    pub tangent: Option<f64>,
+    /// Curvature given, in the run's units. At the ends of an open run: that of the end.
+    pub curvature: Option<f64>,
+    /// Tension before and after, for splines that have it.
+    pub tension: [Option<f64>; 2],
+    /// Curl, for splines that have it.
+    pub curl: Option<f64>,
+}
+
+/// A smooth stretch between corners: what a spline sees. Distinct neighbours, at least two knots
+/// when open and two when closed, coordinates at most 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// The knots in order.
+    pub knots: Vec<RunKnot>,
+    /// Whether the last knot joins the first.
+    pub closed: bool,
+}
+
+impl Run {
+    /// The number of segments.
+    pub fn segment_count(&self) -> usize {
+        if self.closed {
+            self.knots.len()
+        } else {
+            self.knots.len() - 1
+        }
+    }
+
+    /// The chord vector of segment `index`.
+    pub fn chord(&self, index: usize) -> Vec2 {
+        let next = (index + 1) % self.knots.len();
+        self.knots[next].point - self.knots[index].point
+    }
+
+    /// The turning angle between the chords at knot `index`, in (−π, π]; 0 at open ends.
+    pub fn turning(&self, index: usize) -> f64 {
+        let n = self.knots.len();
+        if !self.closed && (index == 0 || index + 1 == n) {
+            return 0.0;
+        }
+        turning(self.chord((index + n - 1) % n), self.chord(index))
+    }
+
+    /// The knots `from ..= to` as an open run of their own.
+    pub fn stretch(&self, from: usize, to: usize) -> Run {
+        let n = self.knots.len();
+        let count = if to > from { to - from } else { to + n - from };
+        Run {
+            knots: (0..=count).map(|i| self.knots[(from + i) % n]).collect(),
+            closed: false,
+        }
+    }
+}
+
+/// Why a contour can't be solved at all: something in it has no meaning. Knots are numbered from 0.
+#[derive(Clone, Debug, PartialEq)]
+pub enum InputError {
+    /// The contour has no knots.
+    Empty,
+    /// A number at a knot isn't finite.
+    NotFinite {
+        /// The knot.
+        knot: usize,
+        /// Which of its numbers.
+        what: &'static str,
+    },
+    /// A coordinate is larger than [`LARGEST_COORDINATE`].
+    TooLarge {
+        /// The knot.
+        knot: usize,
+    },
+    /// The contour as a whole is smaller than [`SMALLEST_SIZE`], and not a single point.
+    TooSmall,
+    /// A given direction has no length.
+    ZeroTangent {
+        /// The knot.
+        knot: usize,
+        /// `tangent_in` or `tangent_out`.
+        what: &'static str,
+    },
+    /// A smooth knot is given two directions.
+    TangentsDiffer {
+        /// The knot.
+        knot: usize,
+        /// Its join.
+        join: Join,
+    },
+    /// A knot whose curvature is continuous is given two curvatures.
+    CurvaturesDiffer {
+        /// The knot.
+        knot: usize,
+        /// Its join.
+        join: Join,
+    },
+}
+
+impl fmt::Display for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            InputError::Empty => f.write_str("the contour has no knots"),
+            InputError::NotFinite { knot, what } => {
+                write!(f, "{what} of knot {knot} is not a finite number")
+            }
+            InputError::TooLarge { knot } => {
+                write!(f, "knot {knot} lies beyond {LARGEST_COORDINATE:e} units")
+            }
+            InputError::TooSmall => {
+                write!(
+                    f,
+                    "the whole contour is smaller than {SMALLEST_SIZE:e} units"
+                )
+            }
+            InputError::ZeroTangent { knot, what } => {
+                write!(f, "{what} of knot {knot} has no length, so no direction")
+            }
+            InputError::TangentsDiffer { knot, join } => {
+                write!(
+                    f,
+                    "knot {knot} joins {join}, yet its tangent_in and tangent_out differ"
+                )
+            }
+            InputError::CurvaturesDiffer { knot, join } => {
+                write!(
+                    f,
+                    "knot {knot} joins {join}, yet its curvature_in and curvature_out differ"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for InputError {}
+
+impl InputError {
+    /// What to do about it.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            InputError::Empty => "give it at least one knot, or leave the contour out",
+            InputError::NotFinite { .. } => "replace NaN and infinities by ordinary numbers",
+            InputError::TooLarge { .. } | InputError::TooSmall => {
+                "scale the drawing; the curve scales with it"
+            }
+            InputError::ZeroTangent { .. } => "give a vector such as [1, 0], or leave it out",
+            InputError::TangentsDiffer { .. } => "make the join `corner`, or give one direction",
+            InputError::CurvaturesDiffer { .. } => {
+                "make the join `g1` or `corner`, or give one curvature"
+            }
+        }
+    }
+}
+
+/// Knots that coincide, as one.
+#[derive(Clone, Debug)]
+struct Node {
+    /// First and last of the input's knots, which follow each other (around the end, if closed).
+    first: usize,
+    last: usize,
+    point: Point,
+    join: Join,
+    tangent_in: Option<f64>,
+    tangent_out: Option<f64>,
+    curvature_in: Option<f64>,
+    curvature_out: Option<f64>,
+    tension: [Option<f64>; 2],
+    curl: Option<f64>,
+}
+
+/// Where a run came from.
+#[derive(Clone, Debug)]
+struct RunPlace {
+    /// Node at which it starts, in the contour's direction.
+    first_node: usize,
+    /// Whether the run is solved in the other direction.
+    reversed: bool,
+}
+
+/// A contour made ready for one spline.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The input's points, in user units.
+    points: Vec<Point>,
+    closed: bool,
+    nodes: Vec<Node>,
+    /// For each node segment, whether it is a straight line.
+    straight: Vec<bool>,
+    runs: Vec<Run>,
+    places: Vec<RunPlace>,
+    adapted: Vec<Adaptation>,
+}
+
+impl Plan {
+    /// Prepares a contour for a spline.
+    ///
+    /// # Errors
+    /// [`InputError`] if something in the contour has no meaning.
+    pub fn new(contour: &Contour, spline: &dyn Spline) -> Result<Plan, InputError> {
+        check(contour)?;
+        let (joins, mut adapted) = resolve_joins(contour, spline);
+        let frame = NormalFrame::of(contour)?;
+        let mut nodes = merge_coincident(contour, &joins, &frame);
+        settle_given(&mut nodes, contour, &mut adapted)?;
+        let mut plan = Plan {
+            points: contour.knots.iter().map(|knot| knot.point).collect(),
+            closed: contour.closed,
+            straight: Vec::new(),
+            runs: Vec::new(),
+            places: Vec::new(),
+            adapted,
+            nodes,
+        };
+        plan.find_straight_segments();
+        plan.split_into_runs(frame.coordinate_noise);
+        Ok(plan)
+    }
+
+    /// The stretches to solve, each in its normal frame.
+    pub fn runs(&self) -> &[Run] {
+        &self.runs
+    }
+
+    /// Number of segments between nodes.
+    fn node_segments(&self) -> usize {
+        match (self.nodes.len(), self.closed) {
+            (1, _) => 0,
+            (n, true) => n,
+            (n, false) => n - 1,
+        }
+    }
+
+    fn is_open_end(&self, node: usize) -> bool {
+        !self.closed && (node == 0 || node + 1 == self.nodes.len())
+    }
+
+    /// Whether the side of `node` that looks along its outgoing (`outgoing`) or incoming segment
+    /// carries κ′ = κ″ = 0 in full: an end or the straight side of a one-way join, nothing given.
+    fn is_terminal(&self, node: usize, outgoing: bool) -> bool {
+        let at = &self.nodes[node];
+        let given = if outgoing {
+            at.tangent_out.is_some() || at.curvature_out.is_some()
+        } else {
+            at.tangent_in.is_some() || at.curvature_in.is_some()
+        };
+        let one_way = if outgoing {
+            Join::CurveToTerminal
+        } else {
+            Join::TerminalToCurve
+        };
+        !given && (self.is_open_end(node) || at.join == Join::Corner || at.join == one_way)
+    }
+
+    /// A segment between two terminal sides has four conditions on the three derivatives of its
+    /// curvature and none on the curvature itself: by definition it is the straight line (thesis
+    /// section 7.4).
+    fn find_straight_segments(&mut self) {
+        let n = self.nodes.len();
+        self.straight = (0..self.node_segments())
+            .map(|i| self.is_terminal(i, true) && self.is_terminal((i + 1) % n, false))
+            .collect();
+    }
+
+    /// Splits at corners, at G1 knots and around straight segments.
+    fn split_into_runs(&mut self, noise: f64) {
+        let (n, segments) = (self.nodes.len(), self.node_segments());
+        let splits = |node: usize| {
+            let before = if node == 0 {
+                segments.wrapping_sub(1)
+            } else {
+                node - 1
+            };
+            self.is_open_end(node)
+                || matches!(self.nodes[node].join, Join::Corner | Join::G1)
+                || self.straight.get(node) == Some(&true)
+                || self.straight.get(before) == Some(&true)
+        };
+        let breaks: Vec<usize> = (0..n)
+            .filter(|&node| segments > 0 && splits(node))
+            .collect();
+        let mut stretches: Vec<(usize, Run)> = Vec::new();
+        if segments > 0 && breaks.is_empty() {
+            let knots = (0..n).map(|node| self.interior_knot(node)).collect();
+            stretches.push((
+                0,
+                Run {
+                    knots,
+                    closed: true,
+                },
+            ));
+        }
+        for (b, &from) in breaks.iter().enumerate() {
+            let to = match breaks.get(b + 1) {
+                Some(&next) => next,
+                None if self.closed => breaks[0],
+                None => break,
+            };
+            if self.straight[from] {
+                continue;
+            }
+            let count = if to > from { to - from } else { to + n - from };
+            let mut knots = vec![self.end_knot(from, true)];
+            knots.extend((1..count).map(|i| self.interior_knot((from + i) % n)));
+            knots.push(self.end_knot(to, false));
+            stretches.push((
+                from,
+                Run {
+                    knots,
+                    closed: false,
+                },
+            ));
+        }
+        for (first_node, run) in stretches {
+            if is_straight(&run, noise) {
+                for i in 0..run.segment_count() {
+                    self.straight[(first_node + i) % n] = true;
+                }
+                continue;
+            }
+            let (run, first_node, reversed) = canonical(run, first_node, n);
+            self.runs.push(run);
+            self.places.push(RunPlace {
+                first_node,
+                reversed,
+            });
+        }
+    }
+
+    fn interior_knot(&self, node: usize) -> RunKnot {
+        let at = &self.nodes[node];
+        RunKnot {
+            point: at.point,
+            join: at.join,
+            tangent: at.tangent_in,
+            curvature: at.curvature_in,
+            tension: at.tension,
+            curl: at.curl,
+        }
+    }
+
+    /// A knot at which a run starts (`outgoing`) or ends. Where a straight line lies on the other
+    /// side of a smooth knot, its direction and curvature are matched.
+    fn end_knot(&self, node: usize, outgoing: bool) -> RunKnot {
+        let at = &self.nodes[node];
+        let (n, segments) = (self.nodes.len(), self.node_segments());
+        let (mut tangent, mut curvature) = if outgoing {
+            (at.tangent_out, at.curvature_out)
+        } else {
+            (at.tangent_in, at.curvature_in)
+        };
+        let beyond = if outgoing {
+            (node + segments - 1) % segments
+        } else {
+            node
+        };
+        if !self.is_open_end(node) && at.join != Join::Corner && self.straight[beyond] {
+            let line = self.nodes[(beyond + 1) % n].point - self.nodes[beyond].point;
+            tangent = Some(direction(line));
+            if at.join != Join::G1 {
+                curvature = Some(0.0);
+            }
+        }
+        let join = if self.is_open_end(node) {
+            Join::Corner
+        } else {
+            at.join
+        };
+        RunKnot {
+            join,
+            tangent,
+            curvature,
+            ..self.interior_knot(node)
+        }
+    }
+
+    /// Puts solved runs back together, in the input's numbering and units.
+    ///
+    /// # Panics
+    /// Never, if `solved` holds one solution for each of [`runs`](Self::runs) with a segment for
+    /// each chord; missing ones are drawn straight.
+    pub fn assemble(&self, solved: Vec<RunSolution>) -> Solution {
+        let (n, segments) = (self.nodes.len(), self.node_segments());
+        let mut report = SolveReport {
+            adapted: self.adapted.clone(),
+            ..SolveReport::default()
+        };
+        let mut shapes: Vec<Option<Segment>> = vec![None; segments];
+        for ((place, run), solution) in self.places.iter().zip(&self.runs).zip(solved) {
+            let (knots, count) = (run.knots.len(), run.segment_count());
+            // Where the run's knots and segments lie among the nodes.
+            let node_of = |i: usize| {
+                let along = if place.reversed { knots - 1 - i } else { i };
+                (place.first_node + along) % n
+            };
+            let segment_of = |i: usize| {
+                let along = match (place.reversed, run.closed) {
+                    (false, _) => i,
+                    (true, false) => count - 1 - i,
+                    // Backwards from the last knot, the closing segment comes last in both.
+                    (true, true) => (2 * count - 2 - i) % count,
+                };
+                (place.first_node + along) % n
+            };
+            for (i, segment) in solution.segments.iter().enumerate().take(count) {
+                let segment = if place.reversed {
+                    segment.reversed()
+                } else {
+                    *segment
+                };
+                shapes[segment_of(i)] = Some(segment);
+            }
+            let input_place = |place: Place| match place {
+                Place::Knot(i) => Place::Knot(self.nodes[node_of(i)].first),
+                Place::Segment(i) => Place::Segment(self.nodes[segment_of(i)].last),
+            };
+            report
+                .relaxed
+                .extend(solution.relaxed.into_iter().map(|r| Relaxation {
+                    place: input_place(r.place),
+                    ..r
+                }));
+            report
+                .adapted
+                .extend(solution.adapted.into_iter().map(|a| Adaptation {
+                    place: input_place(a.place),
+                    ..a
+                }));
+            report.iterations = report.iterations.max(solution.iterations);
+            report.residual = report.residual.max(solution.residual);
+        }
+        report.relaxed.sort_by_key(|relaxation| relaxation.place);
+        report.adapted.sort_by_key(|adaptation| adaptation.place);
+        let placed = self.place_segments(&shapes);
+        let knots = self.solved_knots(&placed, &report);
+        let curve = if placed.is_empty() && self.points.len() == 1 {
+            Curve::from_point(self.points[0])
+        } else {
+            Curve::new(placed, self.closed)
+        };
+        Solution {
+            curve,
+            knots,
+            report,
+        }
+    }
+
+    /// The shapes of the node segments, placed between the input's own points, with segments of
+    /// length 0 between coincident knots.
+    fn place_segments(&self, shapes: &[Option<Segment>]) -> Vec<Segment> {
+        let count = self.points.len();
+        let total = if self.closed { count } else { count - 1 };
+        let ends = |i: usize| (self.points[i], self.points[(i + 1) % count]);
+        let mut placed: Vec<Option<Segment>> = vec![None; total];
+        for (segment, shape) in shapes.iter().enumerate() {
+            let i = self.nodes[segment].last;
+            let (start, end) = ends(i);
+            placed[i] = Some(match shape {
+                Some(shape) if !shape.is_line() => shape.replaced(start, end, 0.0),
+                _ => Segment::line(start, end),
+            });
+        }
+        // Between coincident knots: the direction of what arrives, or else of what leaves.
+        let arriving = |s: &Segment| s.direction(s.length());
+        let first = placed.iter().flatten().next().map(|s| s.direction(0.0));
+        let last = placed.iter().flatten().next_back().map(arriving);
+        let mut carried = if self.closed { last } else { first }.unwrap_or(0.0);
+        (0..total)
+            .map(|i| {
+                let (start, end) = ends(i);
+                let segment =
+                    placed[i].unwrap_or_else(|| Segment::line_with_direction(start, end, carried));
+                carried = arriving(&segment);
+                segment
+            })
+            .collect()
+    }
+
+    fn solved_knots(&self, segments: &[Segment], report: &SolveReport) -> Vec<SolvedKnot> {
+        let count = self.points.len();
+        let mut knots = Vec::with_capacity(count);
+        for node in &self.nodes {
+            let arriving = match (node.first, self.closed) {
+                (0, false) => None,
+                (0, true) => segments.last(),
+                (first, _) => segments.get(first - 1),
+            };
+            let leaving = segments.get(node.last);
+            let place = Place::Knot(node.first);
+            let relaxed = report
+                .relaxed
+                .binary_search_by_key(&place, |r| r.place)
+                .ok();
+            let got = relaxed.and_then(|i| Join::from_name(report.relaxed[i].got));
+            let join = got.unwrap_or(node.join);
+            let solved = SolvedKnot {
+                point: self.points[node.first],
+                join,
+                direction_in: arriving.map(|s| wrap_angle(s.direction(s.length()))),
+                direction_out: leaving.map(|s| wrap_angle(s.direction(0.0))),
+                curvature_in: arriving.map(|s| s.curvature(s.length())),
+                curvature_out: leaving.map(|s| s.curvature(0.0)),
+            };
+            let members = (node.last + count - node.first) % count;
+            for i in 0..=members {
+                let index = (node.first + i) % count;
+                knots.push((
+                    index,
+                    SolvedKnot {
+                        point: self.points[index],
+                        ..solved
+                    },
+                ));
+            }
+        }
+        knots.sort_by_key(|(index, _)| *index);
+        knots.into_iter().map(|(_, knot)| knot).collect()
+    }
+}
+
+/// Refuses what has no meaning.
+fn check(contour: &Contour) -> Result<(), InputError> {
+    if contour.knots.is_empty() {
+        return Err(InputError::Empty);
+    }
+    for (index, knot) in contour.knots.iter().enumerate() {
+        let numbers = [
+            ("x", Some(knot.point.x)),
+            ("y", Some(knot.point.y)),
+            ("curvature_in", knot.curvature_in),
+            ("curvature_out", knot.curvature_out),
+            ("tension_in", knot.tension_in),
+            ("tension_out", knot.tension_out),
+            ("curl", knot.curl),
+        ];
+        if let Some((what, _)) = numbers
+            .iter()
+            .find(|(_, value)| value.is_some_and(|value| !value.is_finite()))
+        {
+            return Err(InputError::NotFinite { knot: index, what });
+        }
+        if knot.point.x.abs().max(knot.point.y.abs()) > LARGEST_COORDINATE {
+            return Err(InputError::TooLarge { knot: index });
+        }
+        for (what, tangent) in [
+            ("tangent_in", knot.tangent_in),
+            ("tangent_out", knot.tangent_out),
+        ] {
+            match tangent {
+                Some(tangent) if !tangent.is_finite() => {
+                    return Err(InputError::NotFinite { knot: index, what });
+                }
+                Some(Vec2::ZERO) => return Err(InputError::ZeroTangent { knot: index, what }),
+                _ => {}
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Each knot's join, with the spline's own where it lacks the one asked.
+fn resolve_joins(contour: &Contour, spline: &dyn Spline) -> (Vec<Join>, Vec<Adaptation>) {
+    let mut adapted = Vec::new();
+    let last = contour.knots.len() - 1;
+    let joins = contour
+        .knots
+        .iter()
+        .enumerate()
+        .map(|(index, knot)| {
+            let asked = knot.join.unwrap_or(spline.default_join());
+            let got = spline.adapt(asked);
+            let is_end = !contour.closed && (index == 0 || index == last);
+            if got != asked && !is_end {
+                let (asked, got) = (asked.name(), got.name());
+                adapted.push(Adaptation {
+                    place: Place::Knot(index),
+                    asked,
+                    got,
+                });
+            }
+            got
+        })
+        .collect();
+    (joins, adapted)
+}
+
+/// Translation and scale that bring a contour to unit size about the origin. The scale is a power
+/// of two, so that it adds no rounding.
+struct NormalFrame {
+    centre: Point,
+    scale: f64,
+    /// Coordinates of the input are known to this, in normal units.
+    coordinate_noise: f64,
+}
+
+impl NormalFrame {
+    fn of(contour: &Contour) -> Result<NormalFrame, InputError> {
+        let first = contour.knots[0].point;
+        let (mut low, mut high, mut largest) = (first, first, 0.0f64);
+        for knot in &contour.knots {
+            let p = knot.point;
+            low = Point::new(low.x.min(p.x), low.y.min(p.y));
+            high = Point::new(high.x.max(p.x), high.y.max(p.y));
+            largest = largest.max(p.x.abs()).max(p.y.abs());
+        }
+        let size = (high.x - low.x).max(high.y - low.y);
+        if size > 0.0 && size < SMALLEST_SIZE {
+            return Err(InputError::TooSmall);
+        }
+        let scale = if size > 0.0 {
+            (-size.log2().ceil()).exp2()
+        } else {
+            1.0
+        };
+        Ok(NormalFrame {
+            centre: low.midpoint(high),
+            scale,
+            coordinate_noise: largest * scale * COINCIDENT,
+        })
+    }
+
+    fn point(&self, p: Point) -> Point {
+        ((p - self.centre) * self.scale).to_point()
+    }
+}
+
+/// Turns knots into nodes, one for each stretch of coincident neighbours.
+fn merge_coincident(contour: &Contour, joins: &[Join], frame: &NormalFrame) -> Vec<Node> {
+    let knots = &contour.knots;
+    let count = knots.len();
+    let points: Vec<Point> = knots.iter().map(|knot| frame.point(knot.point)).collect();
+    let coincide = |i: usize, j: usize| (points[i] - points[j]).hypot() <= frame.coordinate_noise;
+    let angle = |tangent: Option<Vec2>| tangent.map(direction);
+    let mut nodes: Vec<Node> = Vec::with_capacity(count);
+    for (i, knot) in knots.iter().enumerate() {
+        let last_of = |knot: &Knot| {
+            (
+                angle(knot.tangent_out),
+                knot.curvature_out.map(|k| k / frame.scale),
+                knot.tension_out,
+            )
+        };
+        let (tangent_out, curvature_out, tension_out) = last_of(knot);
+        match nodes.last_mut() {
+            Some(node) if coincide(i - 1, i) => {
+                node.join = merged_join(node.join, joins[i]);
+                node.last = i;
+                (node.tangent_out, node.curvature_out) = (tangent_out, curvature_out);
+                node.tension[1] = tension_out;
+            }
+            _ => nodes.push(Node {
+                first: i,
+                last: i,
+                point: points[i],
+                join: joins[i],
+                tangent_in: angle(knot.tangent_in),
+                tangent_out,
+                curvature_in: knot.curvature_in.map(|k| k / frame.scale),
+                curvature_out,
+                tension: [knot.tension_in, tension_out],
+                curl: knot.curl,
+            }),
+        }
+    }
+    // A first point repeated at the end.
+    if contour.closed && nodes.len() > 1 && coincide(count - 1, 0) {
+        let tail = nodes.pop().unwrap_or_else(|| nodes[0].clone());
+        let head = &mut nodes[0];
+        head.first = tail.first;
+        head.join = merged_join(tail.join, head.join);
+        (head.tangent_in, head.curvature_in) = (tail.tangent_in, tail.curvature_in);
+        head.tension[0] = tail.tension[0];
+    }
+    nodes
+}
+
+/// The join of two coincident knots: the same if they agree, a corner if either is one, else the
+/// weaker of the symmetric ones.
+fn merged_join(a: Join, b: Join) -> Join {
+    if a == b {
+        a
+    } else if a == Join::Corner || b == Join::Corner {
+        Join::Corner
+    } else if a == Join::G1 || b == Join::G1 {
+        Join::G1
+    } else {
+        Join::G2
+    }
+}
+
+/// Brings what is given at smooth knots into one form: the same tangent and curvature on both
+/// sides, G1 with a tangent wherever a G2 knot is given one, and every G1 knot with its tangent.
+fn settle_given(
+    nodes: &mut [Node],
+    contour: &Contour,
+    adapted: &mut Vec<Adaptation>,
+) -> Result<(), InputError> {
+    /// Directions given twice may differ by their rounding.
+    const SAME_DIRECTION: f64 = 1e-9;
+    let n = nodes.len();
+    for i in 0..n {
+        let is_end = !contour.closed && (i == 0 || i + 1 == n);
+        let (before, after) = (nodes[(i + n - 1) % n].point, nodes[(i + 1) % n].point);
+        let node = &mut nodes[i];
+        if is_end || node.join == Join::Corner || n == 1 {
+            continue;
+        }
+        let join = node.join;
+        if let (Some(a), Some(b)) = (node.tangent_in, node.tangent_out)
+            && wrap_angle(a - b).abs() > SAME_DIRECTION
+        {
+            return Err(InputError::TangentsDiffer {
+                knot: node.first,
+                join,
+            });
+        }
+        node.tangent_in = node.tangent_in.or(node.tangent_out);
+        node.tangent_out = node.tangent_in;
+        if join == Join::G2 && node.tangent_in.is_some() {
+            node.join = Join::G1;
+            if contour.knots[node.first].join.is_some() {
+                let place = Place::Knot(node.first);
+                adapted.push(Adaptation {
+                    place,
+                    asked: join.name(),
+                    got: Join::G1.name(),
+                });
+            }
+        }
+        if node.join == Join::G1 {
+            let tangent = node
+                .tangent_in
+                .unwrap_or_else(|| circle_tangent(before, node.point, after));
+            (node.tangent_in, node.tangent_out) = (Some(tangent), Some(tangent));
+        } else {
+            if let (Some(a), Some(b)) = (node.curvature_in, node.curvature_out)
+                && a != b
+            {
+                return Err(InputError::CurvaturesDiffer {
+                    knot: node.first,
+                    join,
+                });
+            }
+            node.curvature_in = node.curvature_in.or(node.curvature_out);
+            node.curvature_out = node.curvature_in;
+        }
+    }
+    Ok(())
+}
+
+/// Whether the run is straight as far as its coordinates tell: no turning beyond their rounding,
+/// nothing given that would bend it.
+fn is_straight(run: &Run, noise: f64) -> bool {
+    let chord_noise = |i: usize| STRAIGHT + noise / run.chord(i).hypot().max(f64::MIN_POSITIVE);
+    let count = run.segment_count();
+    if run.closed {
+        return false;
+    }
+    let aligned = |knot: &RunKnot, segment: usize| {
+        let off = |tangent: f64| wrap_angle(tangent - direction(run.chord(segment))).abs();
+        knot.curvature.unwrap_or(0.0) == 0.0
+            && knot
+                .tangent
+                .is_none_or(|tangent| off(tangent) <= 2.0 * chord_noise(segment))
+    };
+    (1..count).all(|i| run.turning(i).abs() <= chord_noise(i - 1) + chord_noise(i))
+        && run
+            .knots
+            .iter()
+            .enumerate()
+            .all(|(i, knot)| aligned(knot, i.min(count - 1)))
+}
+
+/// The same run with a start and direction that depend neither on the input's start and direction
+/// nor on how it is turned, mirrored or scaled: the least of all ways to write it down as a list of
+/// [`Mark`]s. Returns the run, the node of its first knot in the contour's direction, and whether
+/// it is reversed.
+fn canonical(run: Run, first_node: usize, nodes: usize) -> (Run, usize, bool) {
+    let n = run.knots.len();
+    let forward = marks(&run);
+    let backwards = Run {
+        knots: run
+            .knots
+            .iter()
+            .rev()
+            .map(|knot| reversed_knot(*knot))
+            .collect(),
+        closed: run.closed,
+    };
+    let backward = marks(&backwards);
+    let start_of = |run: &Run, marks: &[Mark]| match run.closed {
+        false => 0,
+        true => {
+            // A symmetric run has several such starts; any will do, so long as it is the same one.
+            let (start, period) = least_rotation(marks);
+            let place = |i: usize| run.knots[i % n].point;
+            (0..n / period)
+                .map(|i| (start + i * period) % n)
+                .fold(start, |best, i| {
+                    if (place(i).x, place(i).y) < (place(best).x, place(best).y) {
+                        i
+                    } else {
+                        best
+                    }
+                })
+        }
+    };
+    let (a, b) = (start_of(&run, &forward), start_of(&backwards, &backward));
+    let written = |marks: &[Mark], start: usize| [&marks[start..], &marks[..start]].concat();
+    let points = |run: &Run, start: usize| -> Vec<(f64, f64)> {
+        (0..n)
+            .map(|i| run.knots[(start + i) % n].point.into())
+            .collect()
+    };
+    let order = written(&forward, a).cmp(&written(&backward, b));
+    let keep = order.is_lt() || order.is_eq() && points(&run, a) <= points(&backwards, b);
+    let (chosen, start) = if keep { (&run, a) } else { (&backwards, b) };
+    let knots = (0..n).map(|i| chosen.knots[(start + i) % n]).collect();
+    // Knot b of the reversed list is knot n − 1 − b; the walk ends at the one after it.
+    let first = if keep { a } else { (n - b) % n };
+    (
+        Run {
+            knots,
+            closed: run.closed,
+        },
+        (first_node + first) % nodes,
+        !keep,
+    )
+}
+
+/// What a knot looks like to someone who travels the run: its join, its turning angle without sign,
+/// and the chord that follows; the numbers rounded, so that rounding errors don't tell knots apart
+/// that are alike.
+type Mark = (Join, i64, i64);
+
+fn marks(run: &Run) -> Vec<Mark> {
+    /// Alike to a billionth of a radian or of the run's size.
+    const FINENESS: f64 = 1e9;
+    let n = run.knots.len();
+    let size = (0..run.segment_count())
+        .map(|i| run.chord(i).hypot())
+        .fold(0.0, f64::max);
+    (0..n)
+        .map(|i| {
+            let chord = if i < run.segment_count() {
+                run.chord(i).hypot() / size
+            } else {
+                0.0
+            };
+            let turn = run.turning(i).abs();
+            let coarse = |number: f64| (number * FINENESS).round() as i64;
+            (run.knots[i].join, coarse(turn), coarse(chord))
+        })
+        .collect()
+}
+
+/// Where the lexicographically least rotation of a list starts, and after how many places the list
+/// repeats, in linear time: two candidates race, and the loser skips all that it has compared.
+fn least_rotation<T: Ord>(list: &[T]) -> (usize, usize) {
+    let n = list.len();
+    let (mut i, mut j, mut same) = (0, 1, 0);
+    while i < n && j < n && same < n {
+        match list[(i + same) % n].cmp(&list[(j + same) % n]) {
+            std::cmp::Ordering::Equal => {
+                same += 1;
+                continue;
+            }
+            std::cmp::Ordering::Greater => i += same + 1,
+            std::cmp::Ordering::Less => j += same + 1,
+        }
+        if i == j {
+            j += 1;
+        }
+        same = 0;
+    }
+    let period = if same == n { i.abs_diff(j) } else { n };
+    (i.min(j), period)
+}
+
+fn reversed_knot(knot: RunKnot) -> RunKnot {
+    RunKnot {
+        join: knot.join.reversed(),
+        tangent: knot.tangent.map(|t| wrap_angle(t + std::f64::consts::PI)),
+        curvature: knot.curvature.map(|k| -k),
+        tension: [knot.tension[1], knot.tension[0]],
+        ..knot
+    }
+}

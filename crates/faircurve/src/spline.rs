@@ -1,0 +1,188 @@
+//! A spline is a method from contours to curves. This file holds the method's trait, its result,
+//! and the driver that every spline shares.
+
+use std::fmt;
+
+use kurbo::Point;
+
+use crate::curve::Curve;
+use crate::outline::{Contour, Join};
+use crate::plan::{InputError, Plan, Run};
+use crate::segment::Segment;
+
+/// A method that finds a curve through knots; chosen at run time by name from the
+/// [catalogue](crate::catalog).
+///
+/// Implementors see only [`Run`]s: stretches between corners in a normal frame. Everything else
+/// ([`Plan`]) is settled once for all splines.
+pub trait Spline: fmt::Debug + Send + Sync {
+    /// The name under which the catalogue knows this spline.
+    fn name(&self) -> &'static str;
+
+    /// The join of a knot that names none.
+    fn default_join(&self) -> Join;
+
+    /// The join that stands in for `join` where this spline lacks it.
+    fn adapt(&self, join: Join) -> Join;
+
+    /// Solves one run. Never fails: where something can't be met the curve is relaxed and the
+    /// result says so.
+    fn solve_run(&self, run: &Run) -> RunSolution;
+}
+
+/// What a spline returns for one run: a segment for each chord, in the run's frame.
+#[derive(Clone, Debug, Default)]
+pub struct RunSolution {
+    /// One segment for each chord of the run.
+    pub segments: Vec<Segment>,
+    /// What could not be met; knots and segments numbered as in the run.
+    pub relaxed: Vec<Relaxation>,
+    /// What of the input this spline can't use; knots and segments numbered as in the run.
+    pub adapted: Vec<Adaptation>,
+    /// Newton steps taken.
+    pub iterations: usize,
+    /// The largest violated equation, as defined at [`SolveReport::residual`].
+    pub residual: f64,
+}
+
+/// A place in a contour, by the input's numbering.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Place {
+    /// The knot of that index.
+    Knot(usize),
+    /// The segment that leaves the knot of that index.
+    Segment(usize),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::Knot(index) => write!(f, "knot {index}"),
+            Place::Segment(index) => write!(f, "segment {index}"),
+        }
+    }
+}
+
+/// Something that was asked for and could not be met, so that something weaker holds instead.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Relaxation {
+    /// Where.
+    pub place: Place,
+    /// What was asked: a join's or a spline's name.
+    pub asked: &'static str,
+    /// What holds instead: a join's or a spline's name.
+    pub got: &'static str,
+    /// Why, in words for a designer.
+    pub reason: String,
+}
+
+/// Something that the chosen spline doesn't have, and what stands in for it. Not an error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Adaptation {
+    /// Where.
+    pub place: Place,
+    /// What was asked: a join's name, or the name of a given quantity.
+    pub asked: &'static str,
+    /// What stands in for it; `ignored` where nothing does.
+    pub got: &'static str,
+}
+
+/// Whether all that was asked holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// Everything asked holds, to [`SolveReport::residual`].
+    Solved,
+    /// Something could not be met; [`SolveReport::relaxed`] says what and why.
+    Relaxed,
+}
+
+impl Status {
+    /// `solved` or `relaxed`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Status::Solved => "solved",
+            Status::Relaxed => "relaxed",
+        }
+    }
+}
+
+/// How a solution came about and how good it is.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct SolveReport {
+    /// What could not be met, in the input's numbering; empty when all was solved as asked.
+    pub relaxed: Vec<Relaxation>,
+    /// What the spline doesn't have, in the input's numbering.
+    pub adapted: Vec<Adaptation>,
+    /// Newton steps of the run that took most.
+    pub iterations: usize,
+    /// Dimensionless: the largest over all required equations of |Δκ⁽ʲ⁾|·hʲ⁺¹ (j = 0, 1, 2) with
+    /// h the harmonic mean of the two chords, of |Δθ|, and of (end-point error)/chord.
+    pub residual: f64,
+}
+
+impl SolveReport {
+    /// Whether all that was asked holds.
+    pub fn status(&self) -> Status {
+        if self.relaxed.is_empty() {
+            Status::Solved
+        } else {
+            Status::Relaxed
+        }
+    }
+}
+
+/// What holds at a knot of the solved curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolvedKnot {
+    /// The knot's place, exactly as given.
+    pub point: Point,
+    /// The join that the curve has here (after adapting and relaxing).
+    pub join: Join,
+    /// Direction of arrival in radians, in (−π, π]; `None` where no segment arrives.
+    pub direction_in: Option<f64>,
+    /// Direction of departure in radians, in (−π, π]; `None` where no segment leaves.
+    pub direction_out: Option<f64>,
+    /// Curvature just before the knot, 1/units; `None` where no segment arrives.
+    pub curvature_in: Option<f64>,
+    /// Curvature just after the knot, 1/units; `None` where no segment leaves.
+    pub curvature_out: Option<f64>,
+}
+
+/// A solved contour: the curve, what holds at its knots, and the report. All numbers are finite.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// The curve: one segment for each of the contour's, in the input's numbering. A zero chord is
+    /// a segment of length 0.
+    pub curve: Curve,
+    /// One entry for each knot of the contour, in the input's numbering.
+    pub knots: Vec<SolvedKnot>,
+    /// How it came about and how good it is.
+    pub report: SolveReport,
+}
+
+/// Finds the curve that `spline` puts through `contour`.
+///
+/// The result is a function of the contour alone: the same curve from every starting knot, in
+/// both directions, and under translation, rotation, mirroring and scaling (to rounding).
+///
+/// # Errors
+/// [`InputError`] if a number isn't finite, there is no knot, or what is given contradicts itself.
+/// A contour that can't be solved as asked is *not* an error: it is relaxed and says so.
+///
+/// ```
+/// use faircurve::{Contour, catalog, solve};
+/// let contour = Contour::open([(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)]);
+/// let solution = solve(&contour, &*catalog::spline("spiro")?)?;
+/// // Three knots on a circle are joined by the circle.
+/// assert!((solution.curve.length() - std::f64::consts::PI).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn solve(contour: &Contour, spline: &dyn Spline) -> Result<Solution, InputError> {
+    let plan = Plan::new(contour, spline)?;
+    let runs = plan
+        .runs()
+        .iter()
+        .map(|run| spline.solve_run(run))
+        .collect();
+    Ok(plan.assemble(runs))
+}

@@ -1,0 +1,246 @@
+//! Synthetic classes, ordinary and hard, through both programs.
+
+use std::io::{IsTerminal, Write};
+
+use serde::Serialize;
+use serde_json::json;
+
+use crate::generate::{Class, classes};
+use crate::report::{Report, describe, list, percent, table, tiny};
+use crate::rivals::{Ours, TRULY_SOLVED, Theirs};
+use crate::{Failure, spiro};
+
+/// A segment longer than this many chords is a loop that no designer wants.
+const LOOP: f64 = 4.0;
+
+/// The counts of one class.
+#[derive(Debug, Default, Serialize)]
+struct Tally {
+    class: String,
+    is_anchor: bool,
+    cases: usize,
+    solved: usize,
+    relaxed: usize,
+    /// Relaxed at one or two places only.
+    relaxed_at_most_two: usize,
+    refused_input: usize,
+    /// Recomputed, over what is called solved.
+    largest_residual: f64,
+    /// Recomputed with the joins that hold, over what is called relaxed.
+    largest_relaxed_residual: f64,
+    /// Solved with a segment longer than 4 chords.
+    loops: usize,
+    false_solved: usize,
+    not_finite: usize,
+    most_iterations: usize,
+    our_seconds: f64,
+    libspiro_returns_one: usize,
+    libspiro_truly_solved: usize,
+    /// Truly solved with a segment longer than 4 chords.
+    libspiro_loops: usize,
+    libspiro_seconds: f64,
+    /// Truly solved by libspiro without a loop, and not by faircurve.
+    libspiro_alone: usize,
+}
+
+/// Runs both programs over `cases` contours of each class whose name contains `filter`.
+pub(crate) fn run(filter: &str, cases: usize) -> Result<Report, Failure> {
+    let chosen: Vec<Class> = classes()
+        .into_iter()
+        .filter(|class| class.name.contains(filter))
+        .collect();
+    if chosen.is_empty() {
+        return Err(Failure {
+            message: format!("no class has a name with `{filter}` in it"),
+            hint: "leave it out to see all of them".to_owned(),
+        });
+    }
+    let spline = spiro()?;
+    let (mut tallies, mut notable, mut alarms) = (Vec::new(), Vec::new(), Vec::new());
+    let mut alone = Vec::new();
+    let mut progress = Progress::new(chosen.len());
+    for class in &chosen {
+        progress.step(&class.name);
+        let mut t = Tally {
+            class: class.name.clone(),
+            is_anchor: class.is_anchor,
+            ..Tally::default()
+        };
+        for case in 0..cases {
+            let contour = class.contour(case);
+            t.cases += 1;
+            let clock = std::time::Instant::now();
+            let theirs = Theirs::solve(&contour);
+            t.libspiro_seconds += clock.elapsed().as_secs_f64();
+            let their_loop = theirs
+                .curve
+                .as_ref()
+                .is_some_and(|curve| curve.longest > LOOP);
+            let theirs_is_true = theirs.is_truly_solved();
+            t.libspiro_returns_one += usize::from(theirs.returns_one);
+            t.libspiro_truly_solved += usize::from(theirs_is_true);
+            t.libspiro_loops += usize::from(theirs_is_true && their_loop);
+            let clock = std::time::Instant::now();
+            let ours = Ours::solve(&contour, &*spline);
+            t.our_seconds += clock.elapsed().as_secs_f64();
+            let Ok(ours) = ours else {
+                t.refused_input += 1;
+                continue;
+            };
+            let name = format!("{} case {case}", class.name);
+            t.most_iterations = t.most_iterations.max(ours.solution.report.iterations);
+            if ours.is_solved() {
+                t.solved += 1;
+                t.loops += usize::from(ours.longest > LOOP);
+                t.largest_residual = t.largest_residual.max(ours.as_asked.value);
+            } else {
+                let places = ours.solution.report.relaxed.len();
+                t.relaxed += 1;
+                t.relaxed_at_most_two += usize::from(places <= 2);
+                t.largest_relaxed_residual = t.largest_relaxed_residual.max(ours.as_claimed.value);
+                if theirs_is_true && !their_loop {
+                    t.libspiro_alone += 1;
+                    alone.push(format!("{name}: {}", describe(&contour)));
+                    notable.push((format!("alone {name}"), contour.clone()));
+                }
+            }
+            if ours.is_false() {
+                t.false_solved += 1;
+                let found = &ours.as_asked;
+                alarms.push(format!(
+                    "{name}: called solved at {}, is {} at knot {}: {}",
+                    tiny(ours.solution.report.residual),
+                    tiny(found.value),
+                    found.knot,
+                    found.equation,
+                ));
+                notable.push((format!("false {name}"), contour.clone()));
+            }
+            if !ours.is_finite() {
+                t.not_finite += 1;
+                alarms.push(format!("{name}: a number isn't finite"));
+                notable.push((format!("not-finite {name}"), contour.clone()));
+            }
+        }
+        tallies.push(t);
+    }
+    progress.done();
+    let text = [
+        class_table(&tallies),
+        format!(
+            "\nPer cent of all cases. loops: with a segment longer than {LOOP} chords. ms: mean, both \
+             with the judge's time.\nlibspiro counts as true when the residual recomputed from its \
+             k₀…k₃ is at most {TRULY_SOLVED:e}; alone: true, loop-free, and not solved by faircurve.\n",
+        ),
+        list("truly solved by libspiro alone, without a loop", &alone),
+    ]
+    .concat();
+    let json = json!({ "classes": tallies, "libspiro_alone": alone, "alarms": alarms });
+    Ok(Report {
+        text,
+        json,
+        notable,
+        alarms,
+    })
+}
+
+fn class_table(tallies: &[Tally]) -> String {
+    let rows = tallies
+        .iter()
+        .map(|t| {
+            let of_all = |part: usize| percent(part, t.cases);
+            let milliseconds = |seconds: f64| format!("{:.3}", 1e3 * seconds / t.cases as f64);
+            [
+                t.class.clone(),
+                of_all(t.solved),
+                of_all(t.relaxed_at_most_two),
+                of_all(t.relaxed - t.relaxed_at_most_two),
+                of_all(t.loops),
+                tiny(t.largest_residual),
+                tiny(t.largest_relaxed_residual),
+                t.false_solved.to_string(),
+                t.not_finite.to_string(),
+                t.most_iterations.to_string(),
+                milliseconds(t.our_seconds),
+                of_all(t.libspiro_returns_one),
+                of_all(t.libspiro_truly_solved),
+                of_all(t.libspiro_loops),
+                milliseconds(t.libspiro_seconds),
+                t.libspiro_alone.to_string(),
+            ]
+        })
+        .collect();
+    let header = [
+        "class",
+        "solved",
+        "relaxed ≤2",
+        ">2",
+        "loops",
+        "residual",
+        "if relaxed",
+        "false",
+        "not finite",
+        "steps",
+        "ms",
+        "libspiro: 1",
+        "true",
+        "loops",
+        "ms",
+        "alone",
+    ];
+    table(header, rows)
+}
+
+/// A line on the terminal that says how far it is; silent elsewhere.
+struct Progress {
+    done: usize,
+    all: usize,
+    shows: bool,
+}
+
+impl Progress {
+    fn new(all: usize) -> Self {
+        Progress {
+            done: 0,
+            all,
+            shows: std::io::stderr().is_terminal(),
+        }
+    }
+
+    fn step(&mut self, what: &str) {
+        self.done += 1;
+        self.write(&format!("\r\x1b[K{}/{} {what}", self.done, self.all));
+    }
+
+    fn done(&self) {
+        self.write("\r\x1b[K");
+    }
+
+    fn write(&self, text: &str) {
+        if self.shows {
+            let mut stderr = std::io::stderr();
+            let _ = stderr
+                .write_all(text.as_bytes())
+                .and_then(|()| stderr.flush());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_called_solved_that_is_not() {
+        let spline = spiro().unwrap_or_else(|failure| panic!("{}", failure.message));
+        for class in classes() {
+            for case in 0..3 {
+                let name = format!("{} case {case}", class.name);
+                let ours = Ours::solve(&class.contour(case), &*spline);
+                let ours = ours.unwrap_or_else(|error| panic!("{name}: {error}"));
+                assert!(ours.is_finite(), "{name}");
+                assert!(!ours.is_false(), "{name}: {:?}", ours.as_asked);
+            }
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! faircurve and libspiro side by side: see the README.
+
+mod classes;
+#[cfg(libspiro)]
+mod ffi;
+mod fonts;
+mod fonts_input;
+mod generate;
+mod report;
+mod residual;
+mod rivals;
+mod tangents;
+mod time;
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use report::Report;
+
+/// Runs faircurve and libspiro on the same contours.
+#[derive(Debug, Parser)]
+#[command(version)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+    /// Also write the result as JSON
+    #[arg(long, global = true, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Also write every contour named in the result into this folder, as documents
+    #[arg(long, global = true, value_name = "FOLDER")]
+    dump: Option<PathBuf>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// How many contours of real fonts are solved
+    Fonts {
+        /// SFD files [default: those next to the repository]
+        files: Vec<PathBuf>,
+    },
+    /// Directions at the knots against those of libspiro
+    Tangents {
+        /// SFD files [default: those next to the repository]
+        files: Vec<PathBuf>,
+    },
+    /// Solve times, measured in turns in one process
+    Time {
+        /// SFD files [default: those next to the repository]
+        files: Vec<PathBuf>,
+        /// Rounds; the median counts
+        #[arg(long, default_value_t = 21, value_parser = clap::value_parser!(u32).range(1..))]
+        rounds: u32,
+        /// Only the fonts, not the synthetic classes
+        #[arg(long)]
+        fonts_only: bool,
+    },
+    /// Synthetic classes, ordinary and hard
+    Classes {
+        /// Only classes whose name contains this
+        #[arg(default_value = "")]
+        filter: String,
+        /// Contours in each class
+        #[arg(long, default_value_t = 200)]
+        cases: usize,
+    },
+}
+
+/// Why nothing came of it, and what to do.
+#[derive(Debug)]
+struct Failure {
+    message: String,
+    hint: String,
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    match run(&arguments).and_then(|report| deliver(&report, &arguments)) {
+        Ok(code) => code,
+        Err(Failure { message, hint }) => {
+            let _ = writeln!(io::stderr(), "error: {message}\nhint: {hint}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<Report, Failure> {
+    if !rivals::HAS_LIBSPIRO {
+        return Err(Failure {
+            message: "this gauntlet was built without libspiro".to_owned(),
+            hint: "install libspiro-dev and pkg-config, then build it again".to_owned(),
+        });
+    }
+    match &arguments.command {
+        Command::Fonts { files } => fonts::run(&fonts_input::read(files)?),
+        Command::Tangents { files } => tangents::run(&fonts_input::read(files)?),
+        Command::Time {
+            files,
+            rounds,
+            fonts_only,
+        } => time::run(&fonts_input::read(files)?, *rounds as usize, !fonts_only),
+        Command::Classes { filter, cases } => classes::run(filter, *cases),
+    }
+}
+
+/// Prints the report and writes its files. Exit code 1: something happened that never must.
+fn deliver(report: &Report, arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let version = rivals::libspiro_version().unwrap_or_default();
+    let head = format!(
+        "faircurve {} against libspiro {version}\n\n",
+        env!("CARGO_PKG_VERSION")
+    );
+    let alarms = report::list("ALARM", &report.alarms);
+    // A closed pipe is the reader's choice, not a failure.
+    let _ = io::stdout().write_all([head.as_str(), &report.text, &alarms].concat().as_bytes());
+    if let Some(file) = &arguments.json {
+        let text = format!("{:#}\n", report.json);
+        std::fs::write(file, text).map_err(|error| Failure {
+            message: format!("can't write {}: {error}", file.display()),
+            hint: "name a file that can be written".to_owned(),
+        })?;
+    }
+    if let Some(folder) = &arguments.dump {
+        report.dump(folder)?;
+    }
+    Ok(if report.alarms.is_empty() {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    })
+}
+
+/// The spline under test.
+fn spiro() -> Result<Box<dyn faircurve::Spline>, Failure> {
+    faircurve::catalog::spline("spiro").map_err(|error| Failure {
+        message: error.to_string(),
+        hint: error.hint(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        use clap::CommandFactory;
+        Arguments::command().debug_assert();
+    }
+}

@@ -1,0 +1,369 @@
+//! Both programs on one contour, each judged by the same residual.
+
+use faircurve::{Contour, Join, Solution, Spline, Status};
+
+#[cfg(libspiro)]
+use crate::residual::end_directions;
+use crate::residual::{Piece, Residual, longest_in_chords, residual};
+
+/// Residuals up to this count as solved when libspiro is judged: a hundred times its own aim.
+pub(crate) const TRULY_SOLVED: f64 = 1e-5;
+
+/// What faircurve makes of a contour.
+#[derive(Clone, Debug)]
+pub(crate) struct Ours {
+    /// The solution as the library gives it.
+    pub(crate) solution: Solution,
+    /// k₀ … k₃ and length of each segment.
+    pub(crate) pieces: Vec<Piece>,
+    /// Recomputed, with the joins that the contour asks for.
+    pub(crate) as_asked: Residual,
+    /// Recomputed, with the joins that hold after relaxing.
+    pub(crate) as_claimed: Residual,
+    /// Length over chord of the longest segment.
+    pub(crate) longest: f64,
+}
+
+impl Ours {
+    /// Solves with the given spline. The error is that of the input, in words.
+    pub(crate) fn solve(contour: &Contour, spline: &dyn Spline) -> Result<Ours, String> {
+        let solution = faircurve::solve(contour, spline).map_err(|error| error.to_string())?;
+        let pieces: Vec<Piece> = solution
+            .curve
+            .segments()
+            .iter()
+            .map(|segment| Piece {
+                k: segment.kappa(),
+                length: Some(segment.length()),
+            })
+            .collect();
+        let claimed: Vec<Join> = solution.knots.iter().map(|knot| knot.join).collect();
+        let as_asked = residual(
+            contour,
+            &asked_joins(contour, spline.default_join()),
+            &pieces,
+        );
+        let as_claimed = residual(contour, &claimed, &pieces);
+        let longest = longest_in_chords(contour, &pieces);
+        Ok(Ours {
+            solution,
+            pieces,
+            as_asked,
+            as_claimed,
+            longest,
+        })
+    }
+
+    /// Whether faircurve says that all is as asked.
+    pub(crate) fn is_solved(&self) -> bool {
+        self.solution.report.status() == Status::Solved
+    }
+
+    /// Says solved and isn't: what must never happen. The judge allows a little more than the
+    /// solver's own limit, since the two round differently.
+    pub(crate) fn is_false(&self) -> bool {
+        self.is_solved() && self.as_asked.value > 2.0 * faircurve::tolerance::SOLVED
+    }
+
+    /// Whether every number of the curve and of its knots is finite.
+    pub(crate) fn is_finite(&self) -> bool {
+        let pieces = self.pieces.iter().all(|piece| {
+            piece.length.is_some_and(f64::is_finite) && piece.k.iter().all(|k| k.is_finite())
+        });
+        let knots = self.solution.knots.iter().all(|knot| {
+            [
+                knot.direction_in,
+                knot.direction_out,
+                knot.curvature_in,
+                knot.curvature_out,
+            ]
+            .into_iter()
+            .flatten()
+            .all(f64::is_finite)
+        });
+        let (report, curve) = (&self.solution.report, &self.solution.curve);
+        let box_is_finite = curve.bounding_box().is_none_or(|bounds| bounds.is_finite());
+        pieces
+            && knots
+            && report.residual.is_finite()
+            && curve.length().is_finite()
+            && box_is_finite
+    }
+}
+
+/// Each knot's join, with `default` where none is named.
+pub(crate) fn asked_joins(contour: &Contour, default: Join) -> Vec<Join> {
+    contour
+        .knots
+        .iter()
+        .map(|knot| knot.join.unwrap_or(default))
+        .collect()
+}
+
+/// The joins by libspiro's letters, such as `voo[`, for messages.
+pub(crate) fn letters(contour: &Contour) -> String {
+    let last = contour.knots.len().saturating_sub(1);
+    contour
+        .knots
+        .iter()
+        .enumerate()
+        .map(|(i, knot)| match i {
+            0 if !contour.closed => '{',
+            _ if i == last && !contour.closed => '}',
+            _ => knot.join.map_or('o', letter),
+        })
+        .collect()
+}
+
+fn letter(join: Join) -> char {
+    match join {
+        Join::Corner => 'v',
+        Join::G1 => 'a',
+        Join::G2 => 'c',
+        Join::G4 => 'o',
+        Join::CurveToTerminal => '[',
+        Join::TerminalToCurve => ']',
+    }
+}
+
+/// What libspiro makes of a contour.
+#[derive(Clone, Debug)]
+pub(crate) struct Theirs {
+    /// Whether the entry point that FontForge calls returns 1.
+    pub(crate) returns_one: bool,
+    /// Whether it was spared the contour: one that libspiro lacks a word for, or of one or two
+    /// points, which it doesn't check.
+    pub(crate) is_spared: bool,
+    /// Its curve, unless it refuses.
+    pub(crate) curve: Option<TheirCurve>,
+}
+
+/// A curve by libspiro.
+#[derive(Clone, Debug)]
+pub(crate) struct TheirCurve {
+    /// The residual of its k₀ … k₃.
+    pub(crate) residual: Residual,
+    /// Length over chord of the longest segment.
+    pub(crate) longest: f64,
+    /// Direction in which each knot is reached, by `get_knot_th`; `None` at an open start and where
+    /// the segment has no chord (libspiro says 0 there).
+    pub(crate) directions_in: Vec<Option<f64>>,
+    /// Direction in which each knot is left: of the first by `get_knot_th`, of the others, which it
+    /// doesn't tell, from k₀ … k₃. `None` at an open end and where the segment has no chord.
+    pub(crate) directions_out: Vec<Option<f64>>,
+}
+
+/// Whether this build has libspiro.
+pub(crate) const HAS_LIBSPIRO: bool = cfg!(libspiro);
+
+/// libspiro's version, `None` without it.
+pub(crate) fn libspiro_version() -> Option<String> {
+    #[cfg(libspiro)]
+    return Some(crate::ffi::version());
+    #[cfg(not(libspiro))]
+    None
+}
+
+/// A contour as libspiro takes it.
+#[derive(Clone, Debug)]
+pub(crate) struct LibspiroInput {
+    #[cfg(libspiro)]
+    points: Vec<crate::ffi::SpiroCp>,
+}
+
+#[cfg(not(libspiro))]
+impl LibspiroInput {
+    /// `None`: there is no libspiro.
+    pub(crate) fn new(_: &Contour) -> Option<Self> {
+        None
+    }
+
+    /// Never called: there is no libspiro.
+    pub(crate) fn solve_only(&self) {}
+}
+
+#[cfg(libspiro)]
+impl LibspiroInput {
+    /// `None` if the contour has something that libspiro lacks a word for, or is one of those of one
+    /// or two points that it doesn't check.
+    pub(crate) fn new(contour: &Contour) -> Option<Self> {
+        use crate::ffi::{SpiroCp, is_well_formed};
+        use faircurve::Knot;
+        let is_plain = |knot: &Knot| {
+            knot.join != Some(Join::G1)
+                && Knot {
+                    join: None,
+                    ..knot.clone()
+                } == knot.point.into()
+        };
+        let mut points: Vec<SpiroCp> = contour
+            .knots
+            .iter()
+            .zip(letters(contour).bytes())
+            .map(|(knot, letter)| SpiroCp::new(knot.point.x, knot.point.y, letter))
+            .collect();
+        if contour.closed {
+            points.push(SpiroCp::new(0.0, 0.0, b'z'));
+        }
+        let is_fit = contour.knots.iter().all(is_plain) && is_well_formed(&points);
+        is_fit.then_some(LibspiroInput { points })
+    }
+
+    /// Solves and throws away the result: what is timed.
+    pub(crate) fn solve_only(&self) {
+        std::hint::black_box(crate::ffi::SolvedSegments::solve(&self.points));
+    }
+
+    fn solve(&self, contour: &Contour) -> Option<TheirCurve> {
+        let solved = crate::ffi::SolvedSegments::solve(&self.points)?;
+        let pieces: Vec<Piece> = solved
+            .segments()
+            .iter()
+            .map(|segment| Piece {
+                k: segment.ks,
+                length: None,
+            })
+            .collect();
+        let knots = contour.knots.len();
+        let ends = end_directions(contour, &pieces);
+        let direction_in = |knot: usize| {
+            // The first knot of a closed contour is reached by the last segment.
+            let reached = if knot == 0 { knots } else { knot };
+            ends.get(reached - 1).copied().flatten()?;
+            solved.knot_direction(reached)
+        };
+        let direction_out = |knot: usize| {
+            let (start, _) = ends.get(knot).copied().flatten()?;
+            if knot == 0 {
+                solved.knot_direction(0)
+            } else {
+                Some(start)
+            }
+        };
+        Some(TheirCurve {
+            residual: residual(contour, &asked_joins(contour, Join::G4), &pieces),
+            longest: longest_in_chords(contour, &pieces),
+            directions_in: (0..knots).map(direction_in).collect(),
+            directions_out: (0..knots).map(direction_out).collect(),
+        })
+    }
+}
+
+impl Theirs {
+    /// Solves with libspiro.
+    pub(crate) fn solve(contour: &Contour) -> Theirs {
+        match LibspiroInput::new(contour) {
+            None => Theirs {
+                returns_one: false,
+                is_spared: true,
+                curve: None,
+            },
+            #[cfg(libspiro)]
+            Some(input) => Theirs {
+                returns_one: crate::ffi::returns_one(&input.points),
+                is_spared: false,
+                curve: input.solve(contour),
+            },
+            #[cfg(not(libspiro))]
+            Some(_) => Theirs {
+                returns_one: false,
+                is_spared: true,
+                curve: None,
+            },
+        }
+    }
+
+    /// Called solved, and solved by the true residual of what it drew.
+    pub(crate) fn is_truly_solved(&self) -> bool {
+        self.returns_one && self.residual() <= TRULY_SOLVED
+    }
+
+    /// Its residual; infinite where it refuses.
+    pub(crate) fn residual(&self) -> f64 {
+        self.curve
+            .as_ref()
+            .map_or(f64::INFINITY, |curve| curve.residual.value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use faircurve::Knot;
+
+    #[test]
+    #[expect(clippy::print_stdout, reason = "tests say why they are skipped")]
+    fn libspiro_solves_what_is_easy_by_the_common_judge() {
+        if !HAS_LIBSPIRO {
+            println!("skipped: built without libspiro");
+            return;
+        }
+        let points = [
+            (0.0, 0.0),
+            (100.0, 10.0),
+            (180.0, 90.0),
+            (150.0, 200.0),
+            (20.0, 180.0),
+        ];
+        for joins in [
+            [Join::G4; 5],
+            [Join::G2; 5],
+            [
+                Join::Corner,
+                Join::G4,
+                Join::CurveToTerminal,
+                Join::Corner,
+                Join::G2,
+            ],
+            [
+                Join::G4,
+                Join::Corner,
+                Join::TerminalToCurve,
+                Join::G4,
+                Join::Corner,
+            ],
+        ] {
+            let knots = || {
+                points
+                    .into_iter()
+                    .zip(joins)
+                    .map(|(p, join)| Knot::new(p).join(join))
+            };
+            for contour in [Contour::closed(knots()), Contour::open(knots())] {
+                let theirs = Theirs::solve(&contour);
+                let curve = theirs
+                    .curve
+                    .as_ref()
+                    .unwrap_or_else(|| panic!("refuses {}", letters(&contour)));
+                assert!(theirs.returns_one && theirs.is_truly_solved());
+                assert!(
+                    curve.residual.value < 1e-6,
+                    "{}: {:?}",
+                    letters(&contour),
+                    curve.residual
+                );
+                // At smooth knots what it tells is what follows from k₀ … k₃.
+                for (knot, join) in joins.into_iter().enumerate() {
+                    let sides = (curve.directions_in[knot], curve.directions_out[knot]);
+                    if let ((Some(a), Some(b)), true) = (sides, join.is_smooth()) {
+                        assert!(faircurve::frame::wrap_angle(a - b).abs() < 1e-7, "{a} {b}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_libspiro_lacks_is_not_passed_on() {
+        let takes = |contour: Contour| LibspiroInput::new(&contour).is_some();
+        let knots = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)].map(Knot::new);
+        assert_eq!(takes(Contour::closed(knots.clone())), HAS_LIBSPIRO);
+        assert!(!takes(Contour::open(knots[..2].to_vec())));
+        let mut given = knots.clone();
+        given[1].tangent_in = Some((1.0, 0.0).into());
+        assert!(!takes(Contour::closed(given)));
+        let mut g1 = knots;
+        g1[1].join = Some(Join::G1);
+        assert!(!takes(Contour::closed(g1)));
+    }
+}
