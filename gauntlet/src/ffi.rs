@@ -28,11 +28,7 @@ pub(crate) struct SpiroCp {
 impl SpiroCp {
     /// A point with one of libspiro's letters, which are all ASCII.
     pub(crate) fn new(x: f64, y: f64, letter: u8) -> Self {
-        SpiroCp {
-            x,
-            y,
-            ty: letter as c_char,
-        }
+        SpiroCp { x, y, ty: letter as c_char }
     }
 }
 
@@ -71,9 +67,7 @@ unsafe extern "C" {
 /// The library's version.
 pub(crate) fn version() -> String {
     // SAFETY: returns a pointer to a static string.
-    unsafe { CStr::from_ptr(LibSpiroVersion()) }
-        .to_string_lossy()
-        .into_owned()
+    unsafe { CStr::from_ptr(LibSpiroVersion()) }.to_string_lossy().into_owned()
 }
 
 /// Solved segments, owned by libspiro and freed when dropped.
@@ -90,11 +84,7 @@ pub(crate) fn is_well_formed(points: &[SpiroCp]) -> bool {
         return false;
     };
     let is = |point: &SpiroCp, letter: u8| point.ty == letter as c_char;
-    let marked = if is(first, b'{') {
-        is(last, b'}')
-    } else {
-        is(last, b'z')
-    };
+    let marked = if is(first, b'{') { is(last, b'}') } else { is(last, b'z') };
     marked && points.len() >= 3 && c_int::try_from(points.len()).is_ok()
 }
 
@@ -110,12 +100,7 @@ impl SolvedSegments {
         // SAFETY: `points` holds the count of entries that is passed and is only read; the list is
         // marked at its end as the library expects.
         let first = unsafe {
-            run_spiro0(
-                points.as_ptr(),
-                scale_and_centre.as_mut_ptr(),
-                0,
-                points.len() as c_int,
-            )
+            run_spiro0(points.as_ptr(), scale_and_centre.as_mut_ptr(), 0, points.len() as c_int)
         };
         // An open list of n points has n − 1 segments; so has a closed one with its `z`.
         let count = points.len() - 1;
@@ -156,13 +141,7 @@ pub(crate) fn returns_one(points: &[SpiroCp]) -> bool {
         return false;
     }
     let mut points = points.to_vec();
-    let mut context = BezCtx {
-        moveto,
-        lineto,
-        quadto,
-        curveto,
-        mark_knot,
-    };
+    let mut context = BezCtx { moveto, lineto, quadto, curveto, mark_knot };
     // SAFETY: the list is marked at its end and ours to change; the context outlives the call.
     unsafe { TaggedSpiroCPsToBezier0(points.as_mut_ptr(), &mut context) == 1 }
 }

@@ -32,11 +32,7 @@ fn default_files() -> Vec<PathBuf> {
 /// # Errors
 /// If a file can't be read.
 pub(crate) fn read(files: &[PathBuf]) -> Result<Vec<FontContour>, Failure> {
-    let files = if files.is_empty() {
-        default_files()
-    } else {
-        files.to_vec()
-    };
+    let files = if files.is_empty() { default_files() } else { files.to_vec() };
     let mut contours = Vec::new();
     for file in files {
         contours.extend(read_file(&file)?);
@@ -47,10 +43,7 @@ pub(crate) fn read(files: &[PathBuf]) -> Result<Vec<FontContour>, Failure> {
 fn read_file(file: &Path) -> Result<Vec<FontContour>, Failure> {
     let in_words = |error: FormatError| {
         let error = error.in_file(file.display().to_string());
-        Failure {
-            message: error.to_string(),
-            hint: error.hint.unwrap_or_default(),
-        }
+        Failure { message: error.to_string(), hint: error.hint.unwrap_or_default() }
     };
     let extension = file.extension().unwrap_or_default().to_string_lossy();
     let kind = Kind::from_extension(&extension).map_err(in_words)?;
@@ -59,22 +52,14 @@ fn read_file(file: &Path) -> Result<Vec<FontContour>, Failure> {
         hint: "name the files to run, such as SFD fonts or faircurve documents".to_owned(),
     })?;
     let document = faircurve_format::read(&bytes, kind).map_err(in_words)?;
-    let font = file
-        .file_stem()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned();
+    let font = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let contours = document.glyphs.into_iter().flat_map(|glyph| {
         let font = font.clone();
-        glyph
-            .contours
-            .into_iter()
-            .enumerate()
-            .map(move |(index, contour)| FontContour {
-                font: font.clone(),
-                place: format!("{}/{}/{index}", glyph.name, glyph.layer),
-                contour: contour.contour,
-            })
+        glyph.contours.into_iter().enumerate().map(move |(index, contour)| FontContour {
+            font: font.clone(),
+            place: format!("{}/{}/{index}", glyph.name, glyph.layer),
+            contour: contour.contour,
+        })
     });
     Ok(contours.collect())
 }
@@ -92,11 +77,7 @@ mod tests {
         }
         let counts: Vec<usize> = files
             .iter()
-            .map(|file| {
-                read_file(file)
-                    .unwrap_or_else(|f| panic!("{}", f.message))
-                    .len()
-            })
+            .map(|file| read_file(file).unwrap_or_else(|f| panic!("{}", f.message)).len())
             .collect();
         assert_eq!(counts, [180, 760, 93]);
     }

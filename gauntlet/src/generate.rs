@@ -70,12 +70,8 @@ impl Class {
         let points = (self.points)(&mut random, self.size);
         let mut word = case;
         let knots = points.into_iter().map(|point| {
-            const LETTERS: [Join; 4] = [
-                Join::G4,
-                Join::G2,
-                Join::CurveToTerminal,
-                Join::TerminalToCurve,
-            ];
+            const LETTERS: [Join; 4] =
+                [Join::G4, Join::G2, Join::CurveToTerminal, Join::TerminalToCurve];
             let join = match self.joins {
                 Joins::All(join) => join,
                 Joins::EveryArrangement => {
@@ -90,11 +86,7 @@ impl Class {
             };
             Knot::new(point).join(join)
         });
-        if self.closed {
-            Contour::closed(knots)
-        } else {
-            Contour::open(knots)
-        }
+        if self.closed { Contour::closed(knots) } else { Contour::open(knots) }
     }
 }
 
@@ -110,21 +102,11 @@ pub(crate) fn classes() -> Vec<Class> {
             Joins::Drawn => "mixed",
         };
         let name = format!("{what} {how} {joins_name} {size}");
-        classes.push(Class {
-            name,
-            is_anchor: anchor,
-            points,
-            size,
-            closed,
-            joins,
-        });
+        classes.push(Class { name, is_anchor: anchor, points, size, closed, joins });
     };
     let smooth = [Joins::All(Join::G2), Joins::All(Join::G4)];
-    let anchors: [(&str, Points); 3] = [
-        ("circle", jittered_circle),
-        ("walk", walk),
-        ("uniform", uniform),
-    ];
+    let anchors: [(&str, Points); 3] =
+        [("circle", jittered_circle), ("walk", walk), ("uniform", uniform)];
     for (what, points) in anchors {
         for closed in [false, true] {
             for joins in smooth {
@@ -219,20 +201,14 @@ fn walk(random: &mut Random, n: usize) -> Vec<Point> {
 
 /// Anywhere in a square of 1000 units.
 fn uniform(random: &mut Random, n: usize) -> Vec<Point> {
-    (0..n)
-        .map(|_| Point::new(random.between(0.0, 1000.0), random.between(0.0, 1000.0)))
-        .collect()
+    (0..n).map(|_| Point::new(random.between(0.0, 1000.0), random.between(0.0, 1000.0))).collect()
 }
 
 /// A walk with one step of 10⁻⁹ to 1 of the others.
 fn near_coincident(random: &mut Random, n: usize) -> Vec<Point> {
     let (short, decades) = (1 + random.below(n - 3), random.between(-9.0, 0.0));
     let step = |r: &mut Random, i| {
-        if i == short {
-            100.0 * 10f64.powf(decades)
-        } else {
-            ordinary_step(r)
-        }
+        if i == short { 100.0 * 10f64.powf(decades) } else { ordinary_step(r) }
     };
     walk_with(random, n, step, |r, _| gentle_turn(r))
 }
@@ -260,11 +236,7 @@ fn hairpin(random: &mut Random, n: usize) -> Vec<Point> {
     let off = 10f64.powf(random.between(-6.0, -0.76));
     let sense = if random.below(2) == 0 { 1.0 } else { -1.0 };
     let turn = |r: &mut Random, i| {
-        if i == at {
-            sense * (PI - off)
-        } else {
-            gentle_turn(r)
-        }
+        if i == at { sense * (PI - off) } else { gentle_turn(r) }
     };
     walk_with(random, n, |r, _| ordinary_step(r), turn)
 }
@@ -280,10 +252,7 @@ fn half_turn(random: &mut Random, n: usize) -> Vec<Point> {
             let back = points[i - 2] - points[i - 1];
             points[i - 1] + back * [0.5, 1.5, 2.0][random.below(3)]
         } else {
-            Point::new(
-                random.below(11) as f64 * 100.0,
-                random.below(11) as f64 * 100.0,
-            )
+            Point::new(random.below(11) as f64 * 100.0, random.below(11) as f64 * 100.0)
         };
         if points.last() != Some(&point) {
             points.push(point);
@@ -391,10 +360,7 @@ mod tests {
     #[test]
     fn a_case_stays_what_it_was() {
         // Moves only if a generator changes, and with it every figure ever published from it.
-        let walk = classes()
-            .into_iter()
-            .find(|class| class.name == "walk open g4 4")
-            .unwrap();
+        let walk = classes().into_iter().find(|class| class.name == "walk open g4 4").unwrap();
         let last = walk.contour(7).knots[3].point;
         assert_eq!((last.x.round(), last.y.round()), (264.0, 52.0));
     }
@@ -417,19 +383,9 @@ mod tests {
 
     #[test]
     fn arrangements_are_all_different() {
-        let class = classes()
-            .into_iter()
-            .find(|c| c.name == "round closed one-way 4")
-            .unwrap();
+        let class = classes().into_iter().find(|c| c.name == "round closed one-way 4").unwrap();
         let words: BTreeSet<Vec<Option<Join>>> = (0..256)
-            .map(|case| {
-                class
-                    .contour(case)
-                    .knots
-                    .iter()
-                    .map(|knot| knot.join)
-                    .collect()
-            })
+            .map(|case| class.contour(case).knots.iter().map(|knot| knot.join).collect())
             .collect();
         assert_eq!(words.len(), 256);
     }

@@ -96,11 +96,9 @@ fn run(arguments: &Arguments) -> Result<Report, Failure> {
     match &arguments.command {
         Command::Fonts { files } => fonts::run(&fonts_input::read(files)?),
         Command::Tangents { files } => tangents::run(&fonts_input::read(files)?),
-        Command::Time {
-            files,
-            rounds,
-            fonts_only,
-        } => time::run(&fonts_input::read(files)?, *rounds as usize, !fonts_only),
+        Command::Time { files, rounds, fonts_only } => {
+            time::run(&fonts_input::read(files)?, *rounds as usize, !fonts_only)
+        }
         Command::Classes { filter, cases } => classes::run(filter, *cases),
     }
 }
@@ -108,10 +106,7 @@ fn run(arguments: &Arguments) -> Result<Report, Failure> {
 /// Prints the report and writes its files. Exit code 1: something happened that never must.
 fn deliver(report: &Report, arguments: &Arguments) -> Result<ExitCode, Failure> {
     let version = rivals::libspiro_version().unwrap_or_default();
-    let head = format!(
-        "faircurve {} against libspiro {version}\n\n",
-        env!("CARGO_PKG_VERSION")
-    );
+    let head = format!("faircurve {} against libspiro {version}\n\n", env!("CARGO_PKG_VERSION"));
     let alarms = report::list("ALARM", &report.alarms);
     // A closed pipe is the reader's choice, not a failure.
     let _ = io::stdout().write_all([head.as_str(), &report.text, &alarms].concat().as_bytes());
@@ -125,19 +120,13 @@ fn deliver(report: &Report, arguments: &Arguments) -> Result<ExitCode, Failure> 
     if let Some(folder) = &arguments.dump {
         report.dump(folder)?;
     }
-    Ok(if report.alarms.is_empty() {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
-    })
+    Ok(if report.alarms.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
 /// The spline under test.
 fn spiro() -> Result<Box<dyn faircurve::Spline>, Failure> {
-    faircurve::catalog::spline("spiro").map_err(|error| Failure {
-        message: error.to_string(),
-        hint: error.hint(),
-    })
+    faircurve::catalog::spline("spiro")
+        .map_err(|error| Failure { message: error.to_string(), hint: error.hint() })
 }
 
 #[cfg(test)]

@@ -38,16 +38,9 @@ impl Report {
         std::fs::create_dir_all(folder).map_err(failure)?;
         for (name, contour) in &self.notable {
             let safe = |c: char| {
-                if c.is_ascii_alphanumeric() || "-.".contains(c) {
-                    c
-                } else {
-                    '_'
-                }
+                if c.is_ascii_alphanumeric() || "-.".contains(c) { c } else { '_' }
             };
-            let file = folder.join(format!(
-                "{}.json",
-                name.chars().map(safe).collect::<String>()
-            ));
+            let file = folder.join(format!("{}.json", name.chars().map(safe).collect::<String>()));
             let document = Document::unnamed([contour.clone()]);
             let text = json::write(&document).map_err(|error| Failure {
                 message: format!("can't write {name}: {error}"),
@@ -91,15 +84,10 @@ pub(crate) fn describe(contour: &Contour) -> String {
     let shown: String = word.chars().take(MOST_LETTERS).collect();
     let more = if word.len() > MOST_LETTERS { "…" } else { "" };
     let chords = crate::residual::chord_range(contour)
-        .map_or("no chord".to_owned(), |(low, high)| {
-            format!("chords {low:.4}–{high:.1}")
-        });
+        .map_or("no chord".to_owned(), |(low, high)| format!("chords {low:.4}–{high:.1}"));
     let turn = crate::residual::largest_turn(contour).to_degrees();
     let how = if contour.closed { "closed" } else { "open" };
-    format!(
-        "{how}, {} knots {shown}{more}, {chords}, turns to {turn:.1}°",
-        contour.knots.len()
-    )
+    format!("{how}, {} knots {shown}{more}, {chords}, turns to {turn:.1}°", contour.knots.len())
 }
 
 /// A share as a percentage, to a digit that can't round a miss away.
@@ -108,20 +96,12 @@ pub(crate) fn percent(part: usize, whole: usize) -> String {
         return "–".to_owned();
     }
     let share = 100.0 * part as f64 / whole as f64;
-    if part == whole {
-        "100".to_owned()
-    } else {
-        format!("{:.1}", (share * 10.0).floor() / 10.0)
-    }
+    if part == whole { "100".to_owned() } else { format!("{:.1}", (share * 10.0).floor() / 10.0) }
 }
 
 /// A small number such as a residual.
 pub(crate) fn tiny(value: f64) -> String {
-    if value == 0.0 {
-        "0".to_owned()
-    } else {
-        format!("{value:.1e}")
-    }
+    if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
 }
 
 #[cfg(test)]
@@ -143,9 +123,6 @@ mod tests {
             Knot::new((1.0, 0.0)).join(Join::G2),
             Knot::new((1.0, 2.0)),
         ]);
-        assert_eq!(
-            describe(&contour),
-            "open, 3 knots {c}, chords 1.0000–2.0, turns to 90.0°"
-        );
+        assert_eq!(describe(&contour), "open, 3 knots {c}, chords 1.0000–2.0, turns to 90.0°");
     }
 }

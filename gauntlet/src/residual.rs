@@ -58,12 +58,7 @@ fn conditions(join: Join) -> &'static [Condition] {
     }
 }
 
-const EQUAL: [&str; 4] = [
-    "θ continuous",
-    "κ continuous",
-    "κ′ continuous",
-    "κ″ continuous",
-];
+const EQUAL: [&str; 4] = ["θ continuous", "κ continuous", "κ′ continuous", "κ″ continuous"];
 const ZERO: [&str; 4] = ["θ = 0", "κ = 0", "κ′ = 0", "κ″ = 0"];
 
 /// A segment of nonzero chord, placed.
@@ -117,23 +112,11 @@ impl Placed {
 /// Where a tangent or curvature is given, it and the continuity of tangent and curvature are
 /// checked, and nothing more: what gives way to it is the spline's choice.
 pub(crate) fn residual(contour: &Contour, joins: &[Join], pieces: &[Piece]) -> Residual {
-    let mut worst = Residual {
-        value: 0.0,
-        knot: 0,
-        equation: "none",
-    };
+    let mut worst = Residual { value: 0.0, knot: 0, equation: "none" };
     let mut require = |knot: usize, equation: &'static str, violation: f64| {
-        let value = if violation.is_finite() {
-            violation.abs()
-        } else {
-            f64::INFINITY
-        };
+        let value = if violation.is_finite() { violation.abs() } else { f64::INFINITY };
         if value > worst.value {
-            worst = Residual {
-                value,
-                knot,
-                equation,
-            };
+            worst = Residual { value, knot, equation };
         }
     };
     let segments = placed_pieces(contour, pieces);
@@ -181,11 +164,7 @@ impl Node {
 
     /// Whether that side has κ′ = κ″ = 0.
     fn is_terminal(&self, contour: &Contour, outgoing: bool) -> bool {
-        let one_way = if outgoing {
-            Join::CurveToTerminal
-        } else {
-            Join::TerminalToCurve
-        };
+        let one_way = if outgoing { Join::CurveToTerminal } else { Join::TerminalToCurve };
         self.is_free(contour, outgoing) && (self.join == Join::Corner || self.join == one_way)
     }
 }
@@ -208,19 +187,13 @@ fn nodes(contour: &Contour, joins: &[Join], segments: &[Placed]) -> Vec<Node> {
             let last = after.map_or(knots - 1, |i| segments[i].from);
             let others = (last + knots - first) % knots;
             let join = match (before, after) {
-                (Some(_), Some(_)) => (1..=others)
-                    .map(|i| joins[(first + i) % knots])
-                    .fold(joins[first], weakest),
+                (Some(_), Some(_)) => {
+                    (1..=others).map(|i| joins[(first + i) % knots]).fold(joins[first], weakest)
+                }
                 // An end is half a corner.
                 _ => Join::Corner,
             };
-            Node {
-                first,
-                last,
-                join,
-                before,
-                after,
-            }
+            Node { first, last, join, before, after }
         })
         .collect()
 }
@@ -230,20 +203,12 @@ pub(crate) fn longest_in_chords(contour: &Contour, pieces: &[Piece]) -> f64 {
     placed_pieces(contour, pieces)
         .iter()
         .map(|segment| segment.length / segment.chord.hypot())
-        .fold(1.0, |a, b| {
-            if b.is_finite() {
-                a.max(b)
-            } else {
-                f64::INFINITY
-            }
-        })
+        .fold(1.0, |a, b| if b.is_finite() { a.max(b) } else { f64::INFINITY })
 }
 
 fn placed_pieces(contour: &Contour, pieces: &[Piece]) -> Vec<Placed> {
     let points: Vec<Point> = contour.knots.iter().map(|knot| knot.point).collect();
-    let largest = points
-        .iter()
-        .fold(0.0f64, |m, p| m.max(p.x.abs()).max(p.y.abs()));
+    let largest = points.iter().fold(0.0f64, |m, p| m.max(p.x.abs()).max(p.y.abs()));
     let chord = |i: usize| points[(i + 1) % points.len()] - points[i];
     pieces
         .iter()
@@ -271,31 +236,12 @@ fn check_node(
     segments: &[Placed],
     require: &mut impl FnMut(usize, &'static str, f64),
 ) {
-    let (before, after) = (
-        node.before.map(|i| &segments[i]),
-        node.after.map(|i| &segments[i]),
-    );
+    let (before, after) = (node.before.map(|i| &segments[i]), node.after.map(|i| &segments[i]));
     let (arrival, departure) = (&contour.knots[node.first], &contour.knots[node.last]);
     let mut require = |equation, violation| require(node.first, equation, violation);
     for (segment, s, angle, tangent, curvature) in [
-        before.map(|b| {
-            (
-                b,
-                0.5,
-                b.end_angle,
-                arrival.tangent_in,
-                arrival.curvature_in,
-            )
-        }),
-        after.map(|a| {
-            (
-                a,
-                -0.5,
-                a.start_angle,
-                departure.tangent_out,
-                departure.curvature_out,
-            )
-        }),
+        before.map(|b| (b, 0.5, b.end_angle, arrival.tangent_in, arrival.curvature_in)),
+        after.map(|a| (a, -0.5, a.start_angle, departure.tangent_out, departure.curvature_out)),
     ]
     .into_iter()
     .flatten()
@@ -391,32 +337,17 @@ fn integral(k: [f64; 4]) -> (f64, f64) {
 
 /// The largest turn between neighbouring chords of a contour, in radians.
 pub(crate) fn largest_turn(contour: &Contour) -> f64 {
-    let straight = vec![
-        Piece {
-            k: [0.0; 4],
-            length: None
-        };
-        contour.segment_count()
-    ];
+    let straight = vec![Piece { k: [0.0; 4], length: None }; contour.segment_count()];
     let placed = placed_pieces(contour, &straight);
     let wrap = if contour.closed { placed.last() } else { None };
     let befores = wrap.into_iter().chain(&placed);
     let afters = placed.iter().skip(usize::from(!contour.closed));
-    befores
-        .zip(afters)
-        .map(|(a, b)| turning(a.chord, b.chord).abs())
-        .fold(0.0, f64::max)
+    befores.zip(afters).map(|(a, b)| turning(a.chord, b.chord).abs()).fold(0.0, f64::max)
 }
 
 /// The shortest and longest chord of a contour that isn't zero; `None` if all are.
 pub(crate) fn chord_range(contour: &Contour) -> Option<(f64, f64)> {
-    let straight = vec![
-        Piece {
-            k: [0.0; 4],
-            length: None
-        };
-        contour.segment_count()
-    ];
+    let straight = vec![Piece { k: [0.0; 4], length: None }; contour.segment_count()];
     placed_pieces(contour, &straight)
         .iter()
         .map(|segment| segment.chord.hypot())
@@ -435,10 +366,7 @@ mod tests {
         let knots =
             (0..n).map(|i| Knot::new((100.0 * angle(i).cos(), 100.0 * angle(i).sin())).join(join));
         let arc = angle(1);
-        let piece = Piece {
-            k: [arc, 0.0, 0.0, 0.0],
-            length: Some(100.0 * arc),
-        };
+        let piece = Piece { k: [arc, 0.0, 0.0, 0.0], length: Some(100.0 * arc) };
         (Contour::closed(knots), vec![piece; n])
     }
 
@@ -449,13 +377,7 @@ mod tests {
 
     #[test]
     fn the_circle_solves_every_smooth_join() {
-        for join in [
-            Join::G1,
-            Join::G2,
-            Join::G4,
-            Join::CurveToTerminal,
-            Join::TerminalToCurve,
-        ] {
+        for join in [Join::G1, Join::G2, Join::G4, Join::CurveToTerminal, Join::TerminalToCurve] {
             for n in [2, 3, 5, 40] {
                 let (contour, pieces) = circle(n, join);
                 let found = judge(&contour, &pieces);
@@ -477,10 +399,7 @@ mod tests {
         pieces[2].k[2] = 1e-3;
         let found = judge(&contour, &pieces);
         assert_eq!(found.equation, "κ″ continuous");
-        assert!(
-            (found.value - 1e-3 * (3.0 / PI).powi(3)).abs() < 1e-6,
-            "{found:?}"
-        );
+        assert!((found.value - 1e-3 * (3.0 / PI).powi(3)).abs() < 1e-6, "{found:?}");
         // A stated length that doesn't fit the chord.
         let (contour, mut pieces) = circle(6, Join::G4);
         pieces[4].length = pieces[4].length.map(|length| length * 1.01);
@@ -495,14 +414,8 @@ mod tests {
 
     #[test]
     fn ends_and_corners_want_arcs_and_straight_lines() {
-        let line = Piece {
-            k: [0.0; 4],
-            length: None,
-        };
-        let arc = Piece {
-            k: [0.5, 0.0, 0.0, 0.0],
-            length: None,
-        };
+        let line = Piece { k: [0.0; 4], length: None };
+        let arc = Piece { k: [0.5, 0.0, 0.0, 0.0], length: None };
         let square = |join| {
             let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
             Contour::closed(corners.map(|point| Knot::new(point).join(join)))
@@ -514,16 +427,10 @@ mod tests {
         assert!((found.value - FRAC_PI_2).abs() < 1e-15);
         // An open arch over three points, from two quarter circles.
         let arch = Contour::open([(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)]);
-        let quarter = Piece {
-            k: [-FRAC_PI_2, 0.0, 0.0, 0.0],
-            length: Some(FRAC_PI_2),
-        };
+        let quarter = Piece { k: [-FRAC_PI_2, 0.0, 0.0, 0.0], length: Some(FRAC_PI_2) };
         let found = residual(&arch, &[Join::G4; 3], &[quarter; 2]);
         assert!(found.value < 1e-15, "{found:?}");
-        let bent = Piece {
-            k: [-FRAC_PI_2, 0.1, 0.0, 0.0],
-            length: None,
-        };
+        let bent = Piece { k: [-FRAC_PI_2, 0.1, 0.0, 0.0], length: None };
         assert!(residual(&arch, &[Join::G4; 3], &[bent, quarter]).value > 0.05);
     }
 
@@ -534,32 +441,20 @@ mod tests {
         knots.insert(2, knots[2].clone());
         knots.push(knots[0].clone());
         let mut doubled = pieces.clone();
-        let nothing = Piece {
-            k: [0.0; 4],
-            length: Some(0.0),
-        };
+        let nothing = Piece { k: [0.0; 4], length: Some(0.0) };
         doubled.insert(2, nothing);
         doubled.push(nothing);
         let contour = Contour::closed(knots);
         assert!(judge(&contour, &doubled).value < 1e-12);
-        assert_eq!(
-            judge(&Contour::open([(1.0, 1.0); 3]), &[nothing; 2]).value,
-            0.0
-        );
+        assert_eq!(judge(&Contour::open([(1.0, 1.0); 3]), &[nothing; 2]).value, 0.0);
     }
 
     #[test]
     fn what_is_given_is_checked() {
         let arch = |tangent: (f64, f64)| {
-            Contour::open([
-                Knot::new((0.0, 0.0)).tangent_out(tangent),
-                Knot::new((2.0, 0.0)),
-            ])
+            Contour::open([Knot::new((0.0, 0.0)).tangent_out(tangent), Knot::new((2.0, 0.0))])
         };
-        let half = Piece {
-            k: [-PI, 0.0, 0.0, 0.0],
-            length: Some(PI),
-        };
+        let half = Piece { k: [-PI, 0.0, 0.0, 0.0], length: Some(PI) };
         let joins = [Join::G4; 2];
         assert!(residual(&arch((0.0, 3.0)), &joins, &[half]).value < 1e-15);
         let found = residual(&arch((3.0, 0.0)), &joins, &[half]);

@@ -1,6 +1,6 @@
 //! Both programs on one contour, each judged by the same residual.
 
-use faircurve::{Contour, Join, Solution, Spline, Status};
+use faircurve::{Contour, Join, Place, Solution, Spline, Status};
 
 #[cfg(libspiro)]
 use crate::residual::end_directions;
@@ -32,26 +32,13 @@ impl Ours {
             .curve
             .segments()
             .iter()
-            .map(|segment| Piece {
-                k: segment.kappa(),
-                length: Some(segment.length()),
-            })
+            .map(|segment| Piece { k: segment.kappa(), length: Some(segment.length()) })
             .collect();
         let claimed: Vec<Join> = solution.knots.iter().map(|knot| knot.join).collect();
-        let as_asked = residual(
-            contour,
-            &asked_joins(contour, spline.default_join()),
-            &pieces,
-        );
+        let as_asked = residual(contour, &asked_joins(contour, spline.default_join()), &pieces);
         let as_claimed = residual(contour, &claimed, &pieces);
         let longest = longest_in_chords(contour, &pieces);
-        Ok(Ours {
-            solution,
-            pieces,
-            as_asked,
-            as_claimed,
-            longest,
-        })
+        Ok(Ours { solution, pieces, as_asked, as_claimed, longest })
     }
 
     /// Whether faircurve says that all is as asked.
@@ -59,10 +46,31 @@ impl Ours {
         self.solution.report.status() == Status::Solved
     }
 
-    /// Says solved and isn't: what must never happen. The judge allows a little more than the
-    /// solver's own limit, since the two round differently.
-    pub(crate) fn is_false(&self) -> bool {
-        self.is_solved() && self.as_asked.value > 2.0 * faircurve::tolerance::SOLVED
+    /// What is wrong with the report, in words: the curve is called solved and isn't, or what is
+    /// said to hold after relaxing doesn't, or a relaxed knot asked for something else. The judge
+    /// allows a little more than the solver's own limit, since the two round differently.
+    pub(crate) fn falsehood(&self, contour: &Contour) -> Option<String> {
+        let report = &self.solution.report;
+        let (claim, found) = match report.status() {
+            Status::Solved => ("solved", &self.as_asked),
+            Status::Relaxed => ("right after relaxing", &self.as_claimed),
+        };
+        // What holds where a whole segment is of another spline isn't for this judge to say.
+        let is_knots_only = report.relaxed.iter().all(|r| matches!(r.place, Place::Knot(_)));
+        if is_knots_only && found.value > 2.0 * faircurve::tolerance::SOLVED {
+            return Some(format!(
+                "called {claim} at {:.1e}, is {:.1e} at knot {}: {}",
+                report.residual, found.value, found.knot, found.equation,
+            ));
+        }
+        report.relaxed.iter().find_map(|relaxation| {
+            let Place::Knot(knot) = relaxation.place else { return None };
+            let join = contour.knots[knot].join?;
+            let is_mirrored = relaxation.asked != join.name();
+            (is_mirrored && relaxation.asked == join.reversed().name()).then(|| {
+                format!("knot {knot} asks {join}; relaxed as if it asked {}", relaxation.asked)
+            })
+        })
     }
 
     /// Whether every number of the curve and of its knots is finite.
@@ -71,15 +79,10 @@ impl Ours {
             piece.length.is_some_and(f64::is_finite) && piece.k.iter().all(|k| k.is_finite())
         });
         let knots = self.solution.knots.iter().all(|knot| {
-            [
-                knot.direction_in,
-                knot.direction_out,
-                knot.curvature_in,
-                knot.curvature_out,
-            ]
-            .into_iter()
-            .flatten()
-            .all(f64::is_finite)
+            [knot.direction_in, knot.direction_out, knot.curvature_in, knot.curvature_out]
+                .into_iter()
+                .flatten()
+                .all(f64::is_finite)
         });
         let (report, curve) = (&self.solution.report, &self.solution.curve);
         let box_is_finite = curve.bounding_box().is_none_or(|bounds| bounds.is_finite());
@@ -93,11 +96,7 @@ impl Ours {
 
 /// Each knot's join, with `default` where none is named.
 pub(crate) fn asked_joins(contour: &Contour, default: Join) -> Vec<Join> {
-    contour
-        .knots
-        .iter()
-        .map(|knot| knot.join.unwrap_or(default))
-        .collect()
+    contour.knots.iter().map(|knot| knot.join.unwrap_or(default)).collect()
 }
 
 /// The joins by libspiro's letters, such as `voo[`, for messages.
@@ -190,11 +189,7 @@ impl LibspiroInput {
         use crate::ffi::{SpiroCp, is_well_formed};
         use faircurve::Knot;
         let is_plain = |knot: &Knot| {
-            knot.join != Some(Join::G1)
-                && Knot {
-                    join: None,
-                    ..knot.clone()
-                } == knot.point.into()
+            knot.join != Some(Join::G1) && Knot { join: None, ..knot.clone() } == knot.point.into()
         };
         let mut points: Vec<SpiroCp> = contour
             .knots
@@ -216,14 +211,8 @@ impl LibspiroInput {
 
     fn solve(&self, contour: &Contour) -> Option<TheirCurve> {
         let solved = crate::ffi::SolvedSegments::solve(&self.points)?;
-        let pieces: Vec<Piece> = solved
-            .segments()
-            .iter()
-            .map(|segment| Piece {
-                k: segment.ks,
-                length: None,
-            })
-            .collect();
+        let pieces: Vec<Piece> =
+            solved.segments().iter().map(|segment| Piece { k: segment.ks, length: None }).collect();
         let knots = contour.knots.len();
         let ends = end_directions(contour, &pieces);
         let direction_in = |knot: usize| {
@@ -234,11 +223,7 @@ impl LibspiroInput {
         };
         let direction_out = |knot: usize| {
             let (start, _) = ends.get(knot).copied().flatten()?;
-            if knot == 0 {
-                solved.knot_direction(0)
-            } else {
-                Some(start)
-            }
+            if knot == 0 { solved.knot_direction(0) } else { Some(start) }
         };
         Some(TheirCurve {
             residual: residual(contour, &asked_joins(contour, Join::G4), &pieces),
@@ -253,11 +238,7 @@ impl Theirs {
     /// Solves with libspiro.
     pub(crate) fn solve(contour: &Contour) -> Theirs {
         match LibspiroInput::new(contour) {
-            None => Theirs {
-                returns_one: false,
-                is_spared: true,
-                curve: None,
-            },
+            None => Theirs { returns_one: false, is_spared: true, curve: None },
             #[cfg(libspiro)]
             Some(input) => Theirs {
                 returns_one: crate::ffi::returns_one(&input.points),
@@ -265,11 +246,7 @@ impl Theirs {
                 curve: input.solve(contour),
             },
             #[cfg(not(libspiro))]
-            Some(_) => Theirs {
-                returns_one: false,
-                is_spared: true,
-                curve: None,
-            },
+            Some(_) => Theirs { returns_one: false, is_spared: true, curve: None },
         }
     }
 
@@ -280,9 +257,7 @@ impl Theirs {
 
     /// Its residual; infinite where it refuses.
     pub(crate) fn residual(&self) -> f64 {
-        self.curve
-            .as_ref()
-            .map_or(f64::INFINITY, |curve| curve.residual.value)
+        self.curve.as_ref().map_or(f64::INFINITY, |curve| curve.residual.value)
     }
 }
 
@@ -298,37 +273,14 @@ mod tests {
             println!("skipped: built without libspiro");
             return;
         }
-        let points = [
-            (0.0, 0.0),
-            (100.0, 10.0),
-            (180.0, 90.0),
-            (150.0, 200.0),
-            (20.0, 180.0),
-        ];
+        let points = [(0.0, 0.0), (100.0, 10.0), (180.0, 90.0), (150.0, 200.0), (20.0, 180.0)];
         for joins in [
             [Join::G4; 5],
             [Join::G2; 5],
-            [
-                Join::Corner,
-                Join::G4,
-                Join::CurveToTerminal,
-                Join::Corner,
-                Join::G2,
-            ],
-            [
-                Join::G4,
-                Join::Corner,
-                Join::TerminalToCurve,
-                Join::G4,
-                Join::Corner,
-            ],
+            [Join::Corner, Join::G4, Join::CurveToTerminal, Join::Corner, Join::G2],
+            [Join::G4, Join::Corner, Join::TerminalToCurve, Join::G4, Join::Corner],
         ] {
-            let knots = || {
-                points
-                    .into_iter()
-                    .zip(joins)
-                    .map(|(p, join)| Knot::new(p).join(join))
-            };
+            let knots = || points.into_iter().zip(joins).map(|(p, join)| Knot::new(p).join(join));
             for contour in [Contour::closed(knots()), Contour::open(knots())] {
                 let theirs = Theirs::solve(&contour);
                 let curve = theirs
@@ -336,12 +288,7 @@ mod tests {
                     .as_ref()
                     .unwrap_or_else(|| panic!("refuses {}", letters(&contour)));
                 assert!(theirs.returns_one && theirs.is_truly_solved());
-                assert!(
-                    curve.residual.value < 1e-6,
-                    "{}: {:?}",
-                    letters(&contour),
-                    curve.residual
-                );
+                assert!(curve.residual.value < 1e-6, "{}: {:?}", letters(&contour), curve.residual);
                 // At smooth knots what it tells is what follows from k₀ … k₃.
                 for (knot, join) in joins.into_iter().enumerate() {
                     let sides = (curve.directions_in[knot], curve.directions_out[knot]);

@@ -36,12 +36,7 @@ pub(crate) fn run(contours: &[FontContour]) -> Result<Report, Failure> {
     let (mut compared, mut sides, mut largest_same) = (0, 0, 0.0f64);
     let mut differences: Vec<Difference> = Vec::new();
     let (mut notable, mut alarms, mut descriptions) = (Vec::new(), Vec::new(), Vec::new());
-    for FontContour {
-        font,
-        place,
-        contour,
-    } in contours
-    {
+    for FontContour { font, place, contour } in contours {
         let theirs = Theirs::solve(contour);
         let (Some(curve), true) = (&theirs.curve, theirs.returns_one) else {
             continue;
@@ -62,21 +57,14 @@ pub(crate) fn run(contours: &[FontContour]) -> Result<Report, Failure> {
                 };
                 let difference = wrap_angle(mine - other).abs();
                 // NaN from libspiro is a difference too.
-                let difference = if difference.is_nan() {
-                    f64::INFINITY
-                } else {
-                    difference
-                };
+                let difference = if difference.is_nan() { f64::INFINITY } else { difference };
                 sides += 1;
                 if difference <= DIFFERENT {
                     largest_same = largest_same.max(difference);
                     continue;
                 }
                 differing += 1;
-                if worst
-                    .as_ref()
-                    .is_none_or(|worst| difference > worst.difference)
-                {
+                if worst.as_ref().is_none_or(|worst| difference > worst.difference) {
                     worst = Some(Difference {
                         contour: format!("{font} {place}"),
                         sides: 0,
@@ -99,18 +87,15 @@ pub(crate) fn run(contours: &[FontContour]) -> Result<Report, Failure> {
             if worst.our_residual >= worst.libspiro_residual {
                 descriptions.push(format!("{}: {}", worst.contour, describe(contour)));
             }
-            if ours.is_false() {
-                alarms.push(format!("{}: called solved and isn't", worst.contour));
+            if let Some(falsehood) = ours.falsehood(contour) {
+                alarms.push(format!("{}: {falsehood}", worst.contour));
             }
             notable.push((format!("tangents {}", worst.contour), contour.clone()));
             differences.push(worst);
         }
     }
     differences.sort_by(|a, b| b.difference.total_cmp(&a.difference));
-    let excused = differences
-        .iter()
-        .filter(|d| d.our_residual < d.libspiro_residual)
-        .count();
+    let excused = differences.iter().filter(|d| d.our_residual < d.libspiro_residual).count();
     let summary = format!(
         "contours that libspiro solves: {compared}; sides of knots compared: {sides}\n\
          contours with a side more than {DIFFERENT:e} rad apart: {}; of these our residual is the \
@@ -121,11 +106,7 @@ pub(crate) fn run(contours: &[FontContour]) -> Result<Report, Failure> {
     );
     let text = [
         summary,
-        if differences.is_empty() {
-            String::new()
-        } else {
-            difference_table(&differences)
-        },
+        if differences.is_empty() { String::new() } else { difference_table(&differences) },
         list("where our residual is not the smaller", &descriptions),
     ]
     .concat();
@@ -135,12 +116,7 @@ pub(crate) fn run(contours: &[FontContour]) -> Result<Report, Failure> {
         "largest_difference_below_limit": largest_same,
         "differences": differences,
     });
-    Ok(Report {
-        text,
-        json,
-        notable,
-        alarms,
-    })
+    Ok(Report { text, json, notable, alarms })
 }
 
 fn difference_table(differences: &[Difference]) -> String {

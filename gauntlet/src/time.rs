@@ -46,10 +46,7 @@ pub(crate) fn run(
     let spline = spiro()?;
     let mut by_font: BTreeMap<&str, Vec<Contour>> = BTreeMap::new();
     for font in fonts {
-        by_font
-            .entry(&font.font)
-            .or_default()
-            .push(font.contour.clone());
+        by_font.entry(&font.font).or_default().push(font.contour.clone());
     }
     let mut timings: Vec<Timing> = by_font
         .into_iter()
@@ -93,12 +90,7 @@ pub(crate) fn run(
         table(header, rows),
     );
     let json = json!({ "rounds": rounds, "timings": timings });
-    Ok(Report {
-        text,
-        json,
-        notable: Vec::new(),
-        alarms: Vec::new(),
-    })
+    Ok(Report { text, json, notable: Vec::new(), alarms: Vec::new() })
 }
 
 /// `None` where no contour is solved by both.
@@ -127,12 +119,7 @@ fn measure(set: &str, contours: &[Contour], spline: &dyn Spline, rounds: usize) 
         (0..rounds).map(|_| (libspiro_pass(), our_pass())).unzip();
     let totals = |passes: &[Vec<f64>]| passes.iter().map(|pass| pass.iter().sum()).collect();
     let (their_totals, our_totals): (Vec<f64>, Vec<f64>) = (totals(&theirs), totals(&ours));
-    let ratios = sorted(
-        their_totals
-            .iter()
-            .zip(&our_totals)
-            .map(|(theirs, ours)| theirs / ours),
-    );
+    let ratios = sorted(their_totals.iter().zip(&our_totals).map(|(theirs, ours)| theirs / ours));
     // The median contour, each at its median over the rounds.
     let typical = |passes: &[Vec<f64>]| {
         let of_contour = |i: usize| median(&sorted(passes.iter().map(|pass| pass[i])));
@@ -171,11 +158,7 @@ fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
 
 fn median(sorted: &[f64]) -> f64 {
     let middle = sorted.len() / 2;
-    if sorted.len() % 2 == 1 {
-        sorted[middle]
-    } else {
-        (sorted[middle - 1] + sorted[middle]) / 2.0
-    }
+    if sorted.len() % 2 == 1 { sorted[middle] } else { (sorted[middle - 1] + sorted[middle]) / 2.0 }
 }
 
 #[cfg(test)]

@@ -46,19 +46,14 @@ pub(crate) struct SolveArgs {
 
     /// Most that Béziers may deviate from the solved curves, in the drawing's units. Default:
     /// 1/10000 of the glyph's larger side.
-    #[arg(
-        long,
-        value_name = "UNITS",
-        allow_negative_numbers = true,
-        help_heading = "Solving"
-    )]
+    #[arg(long, value_name = "UNITS", allow_negative_numbers = true, help_heading = "Solving")]
     pub(crate) accuracy: Option<String>,
 
     /// Format of the input: json, csv or sfd. Default: by the file's extension; json for stdin.
     #[arg(long, value_name = "KIND", help_heading = "Choosing")]
     pub(crate) from: Option<String>,
 
-    /// Solve only the glyph of this name; may be given several times.
+    /// Solve only the glyph of this name; may be given several times, and that order is kept.
     #[arg(long = "glyph", value_name = "NAME", help_heading = "Choosing")]
     pub(crate) glyphs: Vec<String>,
 
@@ -67,13 +62,7 @@ pub(crate) struct SolveArgs {
     pub(crate) layer: Option<String>,
 
     /// Where to write; `-` is stdout. The file appears whole or not at all.
-    #[arg(
-        short,
-        long,
-        value_name = "OUT",
-        default_value = "-",
-        help_heading = "Writing"
-    )]
+    #[arg(short, long, value_name = "OUT", default_value = "-", help_heading = "Writing")]
     pub(crate) output: PathBuf,
 
     /// What to write: `json` (the solution in numbers), `svg` or `png` (a picture), `path` (SVG
@@ -82,31 +71,16 @@ pub(crate) struct SolveArgs {
     pub(crate) format: Option<String>,
 
     /// Show these in a picture too: `knots`, `comb` (the curvature comb).
-    #[arg(
-        long,
-        value_name = "WHAT",
-        value_delimiter = ',',
-        help_heading = "Writing"
-    )]
+    #[arg(long, value_name = "WHAT", value_delimiter = ',', help_heading = "Writing")]
     pub(crate) show: Vec<String>,
 
     /// Width of a PNG in pixels. Default: as wide as two million pixels allow.
-    #[arg(
-        long,
-        value_name = "PIXELS",
-        allow_negative_numbers = true,
-        help_heading = "Writing"
-    )]
+    #[arg(long, value_name = "PIXELS", allow_negative_numbers = true, help_heading = "Writing")]
     pub(crate) width: Option<String>,
 
     /// Add N equal steps of arc length to every segment of the JSON: rows of s, x, y, direction,
     /// curvature.
-    #[arg(
-        long,
-        value_name = "N",
-        allow_negative_numbers = true,
-        help_heading = "Writing"
-    )]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = "Writing")]
     pub(crate) samples: Option<String>,
 
     /// Exit with 0 though something was relaxed.
@@ -142,15 +116,9 @@ pub(crate) fn parse() -> Result<Command, Failure> {
 fn usage(error: &clap::Error) -> Failure {
     let text = error.render().to_string();
     let paragraph = text.split("\n\n").next().unwrap_or_default();
-    let message = paragraph
-        .strip_prefix("error: ")
-        .unwrap_or(paragraph)
-        .replace('\'', "`");
-    let near = [
-        ContextKind::SuggestedArg,
-        ContextKind::SuggestedSubcommand,
-        ContextKind::SuggestedValue,
-    ];
+    let message = paragraph.strip_prefix("error: ").unwrap_or(paragraph).replace('\'', "`");
+    let near =
+        [ContextKind::SuggestedArg, ContextKind::SuggestedSubcommand, ContextKind::SuggestedValue];
     let hint = match near.iter().find_map(|kind| error.get(*kind)) {
         Some(near) => format!("did you mean `{near}`?"),
         None => "see `faircurve --help` and `faircurve solve --help`".to_owned(),

@@ -22,11 +22,7 @@ pub(crate) struct Failure {
 
 impl Failure {
     pub(crate) fn new(message: impl Into<String>) -> Self {
-        Failure {
-            message: message.into(),
-            excerpt: None,
-            hint: None,
-        }
+        Failure { message: message.into(), excerpt: None, hint: None }
     }
 
     pub(crate) fn hint(mut self, hint: impl Into<String>) -> Self {
@@ -78,10 +74,7 @@ impl From<FormatError> for Failure {
 
 /// Prints a line that is worth knowing though all goes on.
 pub(crate) fn note(kind: &str, message: &str) {
-    to_stderr(&format!(
-        "{WARNING}{kind}{WARNING:#}: {}\n",
-        printable(message)
-    ));
+    to_stderr(&format!("{WARNING}{kind}{WARNING:#}: {}\n", printable(message)));
 }
 
 /// Prints what to do about it.
@@ -97,11 +90,7 @@ fn to_stderr(text: &str) {
 /// Text from outside without what would steer a terminal.
 fn printable(text: &str) -> String {
     let shown = |c: char| {
-        if c.is_control() && c != '\n' {
-            char::REPLACEMENT_CHARACTER
-        } else {
-            c
-        }
+        if c.is_control() && c != '\n' { char::REPLACEMENT_CHARACTER } else { c }
     };
     text.chars().map(shown).collect()
 }
@@ -113,35 +102,17 @@ fn excerpt(bytes: &[u8], place: &Location) -> String {
     /// Of which this many before it.
     const BEFORE: usize = 40;
     let offset = place.offset.min(bytes.len());
-    let start = bytes[..offset]
-        .iter()
-        .rposition(|&b| b == b'\n')
-        .map_or(0, |at| at + 1);
-    let end = bytes[offset..]
-        .iter()
-        .position(|&b| b == b'\n')
-        .map_or(bytes.len(), |at| offset + at);
+    let start = bytes[..offset].iter().rposition(|&b| b == b'\n').map_or(0, |at| at + 1);
+    let end =
+        bytes[offset..].iter().position(|&b| b == b'\n').map_or(bytes.len(), |at| offset + at);
     let before: Vec<char> = shown(&bytes[start..offset]);
     let after: Vec<char> = shown(&bytes[offset..end]);
-    let marked = bytes[offset..end]
-        .get(..place.length)
-        .map_or(after.len(), |b| shown(b).len());
+    let marked = bytes[offset..end].get(..place.length).map_or(after.len(), |b| shown(b).len());
     let skipped = before.len().saturating_sub(BEFORE);
-    let (dots, before) = if skipped > 0 {
-        ("…", &before[skipped..])
-    } else {
-        ("", &before[..])
-    };
+    let (dots, before) = if skipped > 0 { ("…", &before[skipped..]) } else { ("", &before[..]) };
     let room = WIDEST - before.len();
-    let (after, more) = if after.len() > room {
-        (&after[..room], "…")
-    } else {
-        (&after[..], "")
-    };
-    let (before, after) = (
-        before.iter().collect::<String>(),
-        after.iter().collect::<String>(),
-    );
+    let (after, more) = if after.len() > room { (&after[..room], "…") } else { (&after[..], "") };
+    let (before, after) = (before.iter().collect::<String>(), after.iter().collect::<String>());
 
     let number = place.line.to_string();
     let gutter = " ".repeat(number.len());
@@ -157,8 +128,5 @@ fn excerpt(bytes: &[u8], place: &Location) -> String {
 /// Bytes of a line as characters that take one column each.
 fn shown(bytes: &[u8]) -> Vec<char> {
     let text = String::from_utf8_lossy(bytes);
-    text.trim_end_matches('\r')
-        .chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect()
+    text.trim_end_matches('\r').chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

@@ -30,11 +30,7 @@ pub(crate) fn is_stdio(path: &Path) -> bool {
 }
 
 fn read_one(path: &Path, from: Option<&'static Kind>) -> Result<Source, Failure> {
-    let name = if is_stdio(path) {
-        "stdin".to_owned()
-    } else {
-        path.display().to_string()
-    };
+    let name = if is_stdio(path) { "stdin".to_owned() } else { path.display().to_string() };
     let kind = match from {
         Some(kind) => kind,
         None => kind_of(path).map_err(|failure| failure.within(&name))?,
@@ -69,10 +65,7 @@ fn kind_of(path: &Path) -> Result<&'static Kind, Failure> {
 fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
     if is_stdio(path) {
         let mut bytes = Vec::new();
-        std::io::stdin()
-            .lock()
-            .read_to_end(&mut bytes)
-            .map_err(|error| unreadable(&error))?;
+        std::io::stdin().lock().read_to_end(&mut bytes).map_err(|error| unreadable(&error))?;
         return Ok(bytes);
     }
     if path.is_dir() {

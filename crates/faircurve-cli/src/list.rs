@@ -30,19 +30,9 @@ fn as_text() -> String {
             text.push('\n');
         }
         let _ = writeln!(text, "{}: {}", info.name, info.summary);
-        let others = join_names(info)
-            .into_iter()
-            .filter(|name| *name != info.default_join.name());
-        row(
-            &mut text,
-            "joins",
-            &with_default(info.default_join.name(), others),
-        );
-        row(
-            &mut text,
-            "ends",
-            &with_default(first(info.ends), info.ends.iter().skip(1).copied()),
-        );
+        let others = join_names(info).into_iter().filter(|name| *name != info.default_join.name());
+        row(&mut text, "joins", &with_default(info.default_join.name(), others));
+        row(&mut text, "ends", &with_default(first(info.ends), info.ends.iter().skip(1).copied()));
         for param in info.params {
             row(
                 &mut text,
@@ -69,11 +59,7 @@ fn first(words: &[&'static str]) -> &'static str {
 fn with_default<'a>(default: &str, others: impl Iterator<Item = &'a str>) -> String {
     let mut words = vec![format!("{default} (default)")];
     words.extend(others.map(str::to_owned));
-    if default.is_empty() {
-        String::new()
-    } else {
-        words.join(", ")
-    }
+    if default.is_empty() { String::new() } else { words.join(", ") }
 }
 
 fn values(param: &ParamSpec) -> String {
@@ -123,22 +109,12 @@ struct ParamEntry {
 #[derive(Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 enum ValuesEntry {
-    Number {
-        default: f64,
-        min: f64,
-        max: f64,
-    },
-    Choice {
-        default: &'static str,
-        options: &'static [&'static str],
-    },
+    Number { default: f64, min: f64, max: f64 },
+    Choice { default: &'static str, options: &'static [&'static str] },
 }
 
 fn as_json() -> Result<String, Failure> {
-    let list = List {
-        faircurve: 1,
-        splines: ENTRIES.iter().map(|info| entry(info)).collect(),
-    };
+    let list = List { faircurve: 1, splines: ENTRIES.iter().map(|info| entry(info)).collect() };
     let text = serde_json::to_string_pretty(&list).map_err(|e| Failure::new(e.to_string()))?;
     Ok(text + "\n")
 }
@@ -146,10 +122,7 @@ fn as_json() -> Result<String, Failure> {
 fn entry(info: &SplineInfo) -> SplineEntry {
     let values = |kind: &ParamKind| match *kind {
         ParamKind::Number { default, min, max } => ValuesEntry::Number { default, min, max },
-        ParamKind::Choice { options } => ValuesEntry::Choice {
-            default: first(options),
-            options,
-        },
+        ParamKind::Choice { options } => ValuesEntry::Choice { default: first(options), options },
     };
     SplineEntry {
         name: info.name,
@@ -158,11 +131,7 @@ fn entry(info: &SplineInfo) -> SplineEntry {
         params: info
             .params
             .iter()
-            .map(|p| ParamEntry {
-                name: p.name,
-                summary: p.summary,
-                values: values(&p.kind),
-            })
+            .map(|p| ParamEntry { name: p.name, summary: p.summary, values: values(&p.kind) })
             .collect(),
         default_join: info.default_join.name(),
         joins: join_names(info),

@@ -37,9 +37,7 @@ const FORMATS: &[Format] = &[
         is_picture: true,
         write: |glyphs, options| {
             let picture = Picture::new(glyphs, options.show);
-            let width = options
-                .width
-                .unwrap_or_else(|| png::default_width(&picture));
+            let width = options.width.unwrap_or_else(|| png::default_width(&picture));
             png::write(&picture, width).map_err(|error| {
                 Failure::new(error.to_string())
                     .hint("give a smaller --width, pick some glyphs with --glyph, or write SVG")
@@ -83,11 +81,7 @@ impl Output {
             }
             None => {}
         }
-        Ok(Output {
-            format,
-            options,
-            target,
-        })
+        Ok(Output { format, options, target })
     }
 
     /// The whole file.
@@ -118,16 +112,10 @@ fn format_of(args: &SolveArgs, target: Option<&Path>) -> Result<&'static Format,
     let Some(path) = target else {
         return Ok(&FORMATS[0]);
     };
-    let extension = path
-        .extension()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .to_lowercase();
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     find(&extension).ok_or_else(|| {
         Failure::new("the name doesn't tell the format to write")
-            .hint(format!(
-                "end it in .json, .svg, .png or .path, or add --format"
-            ))
+            .hint(format!("end it in .json, .svg, .png or .path, or add --format"))
             .within(&path.display().to_string())
     })
 }
@@ -164,9 +152,7 @@ fn options(args: &SolveArgs, format: &Format) -> Result<Options, Failure> {
     };
     let width = |text: &str| {
         let expected = format!("a whole number from 1 to {}", png::LARGEST_SIDE);
-        args::number("width", text, &expected, |n| {
-            (1..=png::LARGEST_SIDE).contains(n)
-        })
+        args::number("width", text, &expected, |n| (1..=png::LARGEST_SIDE).contains(n))
     };
     Ok(Options {
         show,
@@ -177,28 +163,20 @@ fn options(args: &SolveArgs, format: &Format) -> Result<Options, Failure> {
 
 fn check_target(path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
     let failure = |message: &str, hint: &str| {
-        Err(Failure::new(message)
-            .hint(hint)
-            .within(&path.display().to_string()))
+        Err(Failure::new(message).hint(hint).within(&path.display().to_string()))
     };
     if path.is_dir() {
         return failure("this is a folder, not a file", "name a file in it");
     }
     if !folder_of(path).is_dir() {
-        return failure(
-            "there is no such folder to write to",
-            "make it first, or check the name",
-        );
+        return failure("there is no such folder to write to", "make it first, or check the name");
     }
     let same = |input: &PathBuf| match (fs::canonicalize(input), fs::canonicalize(path)) {
         (Ok(input), Ok(output)) => input == output,
         _ => false,
     };
     if inputs.iter().any(same) {
-        return failure(
-            "the result would overwrite its own input",
-            "write to another file",
-        );
+        return failure("the result would overwrite its own input", "write to another file");
     }
     Ok(())
 }

@@ -29,10 +29,7 @@ pub(crate) fn report(jobs: &[Job], solved: &[SolvedGlyph], allow_relaxed: bool) 
     if relaxed_contours == 0 || allow_relaxed {
         return ExitCode::SUCCESS;
     }
-    let all = solved
-        .iter()
-        .map(|glyph| glyph.contours.len())
-        .sum::<usize>();
+    let all = solved.iter().map(|glyph| glyph.contours.len()).sum::<usize>();
     hint(&format!(
         "{relaxed_contours} of {all} contours could not be solved as asked: move knots or ask for \
          less there, or accept the nearest curve with --allow-relaxed"
@@ -45,9 +42,7 @@ fn report_adapted(solved: &[SolvedGlyph]) {
     let mut counts: BTreeMap<(&str, &str, &str), usize> = BTreeMap::new();
     for contour in solved.iter().flat_map(|glyph| &glyph.contours) {
         for entry in &contour.solution.report.adapted {
-            *counts
-                .entry((&contour.spline, entry.asked, entry.got))
-                .or_default() += 1;
+            *counts.entry((&contour.spline, entry.asked, entry.got)).or_default() += 1;
         }
     }
     for ((spline, asked, got), count) in counts {

@@ -32,16 +32,13 @@ impl Job {
     }
 }
 
-/// The glyphs and layers that the command line picks, each contour with its spline.
+/// The glyphs and layers that the command line picks, in its order, or else the documents'; each
+/// contour with its spline.
 pub(crate) fn select(sources: Vec<Source>, args: &SolveArgs) -> Result<Vec<Job>, Failure> {
     let overrides = Overrides::new(args)?;
     check_names(&sources, args)?;
     let mut jobs = Vec::new();
-    for Source {
-        name: file,
-        document,
-    } in sources
-    {
+    for Source { name: file, document } in sources {
         let default = document.spline;
         for glyph in document.glyphs {
             if !picked(args, &glyph.name, &glyph.layer) {
@@ -60,6 +57,7 @@ pub(crate) fn select(sources: Vec<Source>, args: &SolveArgs) -> Result<Vec<Job>,
             jobs.push(job);
         }
     }
+    jobs.sort_by_key(|job| args.glyphs.iter().position(|name| *name == job.name));
     Ok(jobs)
 }
 
@@ -72,11 +70,7 @@ fn picked(args: &SolveArgs, glyph: &str, layer: &str) -> bool {
 fn check_names(sources: &[Source], args: &SolveArgs) -> Result<(), Failure> {
     let glyphs = || sources.iter().flat_map(|source| &source.document.glyphs);
     let names: BTreeSet<&str> = glyphs().map(|glyph| glyph.name.as_str()).collect();
-    if let Some(asked) = args
-        .glyphs
-        .iter()
-        .find(|name| !names.contains(name.as_str()))
-    {
+    if let Some(asked) = args.glyphs.iter().find(|name| !names.contains(name.as_str())) {
         return Err(unknown("glyph", asked, &names));
     }
     let Some(asked) = &args.layer else {
@@ -87,16 +81,10 @@ fn check_names(sources: &[Source], args: &SolveArgs) -> Result<(), Failure> {
         return Err(unknown("layer", asked, &layers));
     }
     for glyph in &args.glyphs {
-        let own: BTreeSet<&str> = glyphs()
-            .filter(|g| g.name == *glyph)
-            .map(|g| g.layer.as_str())
-            .collect();
+        let own: BTreeSet<&str> =
+            glyphs().filter(|g| g.name == *glyph).map(|g| g.layer.as_str()).collect();
         if !own.contains(asked.as_str()) {
-            return Err(unknown(
-                &format!("contour of glyph `{glyph}` in layer"),
-                asked,
-                &own,
-            ));
+            return Err(unknown(&format!("contour of glyph `{glyph}` in layer"), asked, &own));
         }
     }
     Ok(())
@@ -106,26 +94,16 @@ fn unknown(what: &str, asked: &str, known: &BTreeSet<&str>) -> Failure {
     /// More names than this would hide the message.
     const MOST: usize = 12;
     let message = format!("there is no {what} `{asked}`");
-    let named: Vec<&str> = known
-        .iter()
-        .copied()
-        .filter(|name| !name.is_empty())
-        .collect();
+    let named: Vec<&str> = known.iter().copied().filter(|name| !name.is_empty()).collect();
     if named.is_empty() {
-        let option = if what == "glyph" {
-            "--glyph"
-        } else {
-            "--layer"
-        };
+        let option = if what == "glyph" { "--glyph" } else { "--layer" };
         return Failure::new(message).hint(format!("nothing here has such a name: drop {option}"));
     }
     let hint = suggest(asked, named.iter().copied());
     let hint = match hint.starts_with("use") && named.len() > MOST {
-        true => format!(
-            "there are {} names, such as `{}`",
-            named.len(),
-            named[..MOST].join("`, `")
-        ),
+        true => {
+            format!("there are {} names, such as `{}`", named.len(), named[..MOST].join("`, `"))
+        }
         false => hint,
     };
     Failure::new(message).hint(hint)
@@ -147,10 +125,7 @@ impl Overrides {
             })?;
             params.set(name.trim(), value.trim());
         }
-        let overrides = Overrides {
-            spline: args.spline.clone().map(SplineChoice::new),
-            params,
-        };
+        let overrides = Overrides { spline: args.spline.clone().map(SplineChoice::new), params };
         if let Some(choice) = &overrides.spline {
             // Wrong even where there is no contour.
             overrides.build(choice)?;

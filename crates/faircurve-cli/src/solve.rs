@@ -47,9 +47,7 @@ fn solve(jobs: &[Job], accuracy: Option<f64>) -> Result<Vec<SolvedGlyph>, Failur
 fn solve_glyph(job: &Job, accuracy: Option<f64>) -> Result<SolvedGlyph, Failure> {
     let solve = |(index, (contour, spline)): (usize, &(_, Box<dyn faircurve::Spline>))| {
         let solution: Solution = faircurve::solve(contour, &**spline).map_err(|error| {
-            Failure::new(error.to_string())
-                .hint(error.hint())
-                .within(&job.place(index))
+            Failure::new(error.to_string()).hint(error.hint()).within(&job.place(index))
         })?;
         Ok((spline.name().to_owned(), solution))
     };

@@ -61,10 +61,7 @@ pub fn read(bytes: &[u8]) -> Result<Document, FormatError> {
         } else {
             if !inside {
                 let closed = closed.take().is_some();
-                contours.push(Contour {
-                    closed,
-                    ..Contour::default()
-                });
+                contours.push(Contour { closed, ..Contour::default() });
                 inside = true;
             }
             let index = contours.len() - 1;
@@ -109,32 +106,21 @@ fn read_row(line: &str) -> Result<Knot, Wrong> {
             place
         })
         .collect();
-    let wrong = |message: String, place: &Range<usize>| Wrong {
-        message,
-        place: place.clone(),
-        hint: None,
-    };
+    let wrong =
+        |message: String, place: &Range<usize>| Wrong { message, place: place.clone(), hint: None };
     let (x, y, join) = match &fields[..] {
         [x, y] => (x, y, None),
         [x, y, join] => (x, y, Some(join)),
         [_, _, _, rest, ..] => {
             let message = "a row has at most three fields".to_owned();
             let hint = Some("write `x,y` or `x,y,join`, with points in numbers: `0.5`".to_owned());
-            return Err(Wrong {
-                message,
-                place: rest.clone(),
-                hint,
-            });
+            return Err(Wrong { message, place: rest.clone(), hint });
         }
         _ => {
             let whole = trimmed(line, 0);
             let message = format!("`{}` is not a row", number::excerpt(&line[whole.clone()]));
             let hint = Some("write `x,y` or `x,y,join`, with commas between".to_owned());
-            return Err(Wrong {
-                message,
-                place: whole,
-                hint,
-            });
+            return Err(Wrong { message, place: whole, hint });
         }
     };
     let coordinate = |place: &Range<usize>| {
@@ -153,19 +139,12 @@ fn read_row(line: &str) -> Result<Knot, Wrong> {
             let name = &line[place.clone()];
             Some(Join::from_name(name).ok_or_else(|| Wrong {
                 hint: Some(suggest(name, Join::ALL.map(Join::name))),
-                ..wrong(
-                    format!("there is no join `{}`", number::excerpt(name)),
-                    place,
-                )
+                ..wrong(format!("there is no join `{}`", number::excerpt(name)), place)
             })?)
         }
         _ => None,
     };
-    Ok(Knot {
-        point,
-        join,
-        ..Knot::default()
-    })
+    Ok(Knot { point, join, ..Knot::default() })
 }
 
 /// Where the text without blanks around it is, if `text` starts at `start`.
@@ -185,13 +164,7 @@ pub fn write(document: &Document) -> Result<String, FormatError> {
         Err(FormatError::new(format!("CSV can't hold {what}")).hint("write JSON instead"))
     };
     let contours = match &document.glyphs[..] {
-        [
-            Glyph {
-                name,
-                layer,
-                contours,
-            },
-        ] if name.is_empty() && layer.is_empty() => contours,
+        [Glyph { name, layer, contours }] if name.is_empty() && layer.is_empty() => contours,
         [_] => return refuse("the names of glyphs and layers".to_owned()),
         glyphs => return refuse(format!("{} glyphs, only one", glyphs.len())),
     };
@@ -216,19 +189,11 @@ pub fn write(document: &Document) -> Result<String, FormatError> {
         }
         for (at, knot) in knots.iter().enumerate() {
             let Knot { point, join, .. } = *knot;
-            if *knot
-                != (Knot {
-                    point,
-                    join,
-                    ..Knot::default()
-                })
-            {
+            if *knot != (Knot { point, join, ..Knot::default() }) {
                 return refuse(format!("what is given at contour {index}, knot {at}"));
             }
             if !point.is_finite() {
-                return refuse(format!(
-                    "numbers that aren't finite: contour {index}, knot {at}"
-                ));
+                return refuse(format!("numbers that aren't finite: contour {index}, knot {at}"));
             }
             out += &format!("{},{}", number::write(point.x), number::write(point.y));
             if let Some(join) = join {

@@ -54,10 +54,7 @@ impl Default for SplineChoice {
 impl SplineChoice {
     /// That spline with every default.
     pub fn new(name: impl Into<String>) -> Self {
-        SplineChoice {
-            name: name.into(),
-            params: Params::new(),
-        }
+        SplineChoice { name: name.into(), params: Params::new() }
     }
 }
 
@@ -67,10 +64,7 @@ impl Document {
         let contours = contours.into_iter().map(DocumentContour::from).collect();
         Document {
             spline: SplineChoice::default(),
-            glyphs: vec![Glyph {
-                contours,
-                ..Glyph::default()
-            }],
+            glyphs: vec![Glyph { contours, ..Glyph::default() }],
         }
     }
 
@@ -83,9 +77,6 @@ impl Document {
 impl From<Contour> for DocumentContour {
     /// A contour that is solved with the document's spline.
     fn from(contour: Contour) -> Self {
-        DocumentContour {
-            contour,
-            spline: None,
-        }
+        DocumentContour { contour, spline: None }
     }
 }

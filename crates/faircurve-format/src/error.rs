@@ -43,33 +43,20 @@ impl Location {
     pub(crate) fn of(bytes: &[u8], stretch: Range<usize>) -> Self {
         let offset = stretch.start.min(bytes.len());
         let end = stretch.end.clamp(offset, bytes.len());
-        let line_start = bytes[..offset]
-            .iter()
-            .rposition(|&b| b == b'\n')
-            .map_or(0, |at| at + 1);
+        let line_start = bytes[..offset].iter().rposition(|&b| b == b'\n').map_or(0, |at| at + 1);
         let line = 1 + bytes[..line_start].iter().filter(|&&b| b == b'\n').count();
         let before: usize = bytes[line_start..offset]
             .utf8_chunks()
             .map(|chunk| chunk.valid().chars().count() + chunk.invalid().len())
             .sum();
-        Location {
-            line,
-            column: before + 1,
-            offset,
-            length: end - offset,
-        }
+        Location { line, column: before + 1, offset, length: end - offset }
     }
 }
 
 impl FormatError {
     /// An error that isn't in a file.
     pub(crate) fn new(message: impl Into<String>) -> Self {
-        FormatError {
-            source_name: None,
-            location: None,
-            message: message.into(),
-            hint: None,
-        }
+        FormatError { source_name: None, location: None, message: message.into(), hint: None }
     }
 
     /// The same error at a stretch of the file's bytes.

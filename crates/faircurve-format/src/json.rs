@@ -45,16 +45,10 @@ type Result<T> = std::result::Result<T, FormatError>;
 /// [`FormatError`] at the offending token, with the glyph, contour and knot (counted from 0) that
 /// it is in.
 pub fn read(bytes: &[u8]) -> Result<Document> {
-    let source = Source {
-        text: text_of(bytes)?,
-        bytes,
-    };
+    let source = Source { text: text_of(bytes)?, bytes };
     let root = source.parse()?;
-    let [version, spline, params, glyphs, contours] = source.object(
-        root,
-        "",
-        ["faircurve", "spline", "params", "glyphs", "contours"],
-    )?;
+    let [version, spline, params, glyphs, contours] =
+        source.object(root, "", ["faircurve", "spline", "params", "glyphs", "contours"])?;
 
     let version = version.ok_or_else(|| {
         FormatError::new("this is not a faircurve document: it has no key `faircurve`")
@@ -68,9 +62,7 @@ pub fn read(bytes: &[u8]) -> Result<Document> {
     }
 
     let default = SplineChoice::default();
-    let spline = source
-        .spline_choice(spline, params, &default, "")?
-        .unwrap_or(default);
+    let spline = source.spline_choice(spline, params, &default, "")?.unwrap_or(default);
     let glyphs = match (glyphs, contours) {
         (Some(glyphs), None) => source
             .array(glyphs, "`glyphs`")?
@@ -78,21 +70,18 @@ pub fn read(bytes: &[u8]) -> Result<Document> {
             .enumerate()
             .map(|(index, glyph)| source.glyph(glyph, index, &spline))
             .collect::<Result<Vec<_>>>()?,
-        (None, Some(contours)) => vec![Glyph {
-            contours: source.contours(contours, "", &spline)?,
-            ..Glyph::default()
-        }],
+        (None, Some(contours)) => {
+            vec![Glyph { contours: source.contours(contours, "", &spline)?, ..Glyph::default() }]
+        }
         (Some(_), Some(contours)) => {
             return Err(source
                 .error(contours, "the document has both `glyphs` and `contours`")
                 .hint("move these contours into a glyph"));
         }
         (None, None) => {
-            return Err(
-                FormatError::new("the document has neither `glyphs` nor `contours`")
-                    .at(bytes, first_byte(source.span(root)))
-                    .hint("add `\"contours\": […]`"),
-            );
+            return Err(FormatError::new("the document has neither `glyphs` nor `contours`")
+                .at(bytes, first_byte(source.span(root)))
+                .hint("add `\"contours\": […]`"));
         }
     };
     Ok(Document { spline, glyphs })
@@ -116,11 +105,7 @@ impl<'a> Source<'a> {
     /// The bytes of the file that `value` is.
     fn span(&self, value: Value<'a>) -> Range<usize> {
         // Both are slices of the file; their addresses differ by the offset.
-        let start = value
-            .get()
-            .as_ptr()
-            .addr()
-            .wrapping_sub(self.bytes.as_ptr().addr());
+        let start = value.get().as_ptr().addr().wrapping_sub(self.bytes.as_ptr().addr());
         start..start.saturating_add(value.get().len())
     }
 
@@ -134,10 +119,7 @@ impl<'a> Source<'a> {
     }
 
     fn wrong_type(&self, value: Value<'a>, what: &str, expected: &str) -> FormatError {
-        self.error(
-            value,
-            format!("{what} must be {expected}, not {}", describe(value)),
-        )
+        self.error(value, format!("{what} must be {expected}, not {}", describe(value)))
     }
 
     /// An object's values by key. `place` says whose keys they are and ends messages' prefix.
@@ -170,18 +152,12 @@ impl<'a> Source<'a> {
             return Err(self.wrong_type(value, owner(place), "an object"));
         }
         let Entries(entries) = self.reparse(value)?;
-        entries
-            .into_iter()
-            .map(|(key, value)| Ok((self.unquote(key)?, key, value)))
-            .collect()
+        entries.into_iter().map(|(key, value)| Ok((self.unquote(key)?, key, value))).collect()
     }
 
     fn duplicate(&self, key_token: Value<'a>, key: &str, place: &str) -> FormatError {
-        self.error(
-            key_token,
-            format!("{place}the key `{}` is given twice", number::excerpt(key)),
-        )
-        .hint("leave one of them out")
+        self.error(key_token, format!("{place}the key `{}` is given twice", number::excerpt(key)))
+            .hint("leave one of them out")
     }
 
     fn array(&self, value: Value<'a>, what: &str) -> Result<Vec<Value<'a>>> {
@@ -200,11 +176,7 @@ impl<'a> Source<'a> {
 
     fn unquote(&self, token: Value<'a>) -> Result<Cow<'a, str>> {
         let inside = &token.get()[1..token.get().len() - 1];
-        if inside.contains('\\') {
-            self.reparse(token).map(Cow::Owned)
-        } else {
-            Ok(inside.into())
-        }
+        if inside.contains('\\') { self.reparse(token).map(Cow::Owned) } else { Ok(inside.into()) }
     }
 
     fn boolean(&self, value: Value<'a>, what: &str) -> Result<bool> {
@@ -222,10 +194,7 @@ impl<'a> Source<'a> {
         key: &str,
         parse: fn(&str) -> std::result::Result<f64, String>,
     ) -> Result<f64> {
-        if !value
-            .get()
-            .starts_with(|first: char| first == '-' || first.is_ascii_digit())
-        {
+        if !value.get().starts_with(|first: char| first == '-' || first.is_ascii_digit()) {
             return Err(self.wrong_type(value, &format!("{place}`{key}`"), "a number"));
         }
         parse(value.get()).map_err(|wrong| self.error(value, format!("{place}`{key}`: {wrong}")))
@@ -239,9 +208,7 @@ impl<'a> Source<'a> {
         };
         let [x, y] = parts[..] else {
             let message = format!("{what} must have 2 numbers, not {}", parts.len());
-            return Err(self
-                .error(value, message)
-                .hint("give a vector such as [1, 0]"));
+            return Err(self.error(value, message).hint("give a vector such as [1, 0]"));
         };
         let vector = Vec2::new(
             self.number(x, place, &format!("{key}[0]"), number::parse)?,
@@ -266,9 +233,7 @@ impl<'a> Source<'a> {
         let [name, layer, contours] =
             self.object(value, &unnamed, ["name", "layer", "contours"])?;
         let text = |value: Option<Value<'a>>, key: &str| match value {
-            Some(value) => self
-                .string(value, &format!("{unnamed}`{key}`"))
-                .map(Cow::into_owned),
+            Some(value) => self.string(value, &format!("{unnamed}`{key}`")).map(Cow::into_owned),
             None => Ok(String::new()),
         };
         let (name, layer) = (text(name, "name")?, text(layer, "layer")?);
@@ -278,11 +243,7 @@ impl<'a> Source<'a> {
         };
         let contours = contours.ok_or_else(|| self.missing(value, &place, "contours"))?;
         let contours = self.contours(contours, &place, default)?;
-        Ok(Glyph {
-            name,
-            layer,
-            contours,
-        })
+        Ok(Glyph { name, layer, contours })
     }
 
     fn contours(
@@ -323,10 +284,7 @@ impl<'a> Source<'a> {
                 .hint("give it at least one knot, or leave the contour out"));
         }
         let spline = self.spline_choice(spline, params, default, place)?;
-        Ok(DocumentContour {
-            contour: Contour { knots, closed },
-            spline,
-        })
+        Ok(DocumentContour { contour: Contour { knots, closed }, spline })
     }
 
     fn knot(&self, value: Value<'a>, place: &str) -> Result<Knot> {
@@ -339,9 +297,7 @@ impl<'a> Source<'a> {
         let point = Point::new(coordinate(x, "x")?, coordinate(y, "y")?);
 
         let direction = |value: Option<Value<'a>>, key: &str| {
-            value
-                .map(|value| self.direction(value, place, key))
-                .transpose()
+            value.map(|value| self.direction(value, place, key)).transpose()
         };
         let both = direction(tangent, "tangent")?;
         if let (Some(_), Some(side)) = (both, tangent_in.or(tangent_out)) {
@@ -352,9 +308,8 @@ impl<'a> Source<'a> {
 
         let mut optional = [None; 5];
         for ((number, key), value) in optional.iter_mut().zip(&KNOT_KEYS[6..]).zip(numbers) {
-            *number = value
-                .map(|value| self.number(value, place, key, number::parse))
-                .transpose()?;
+            *number =
+                value.map(|value| self.number(value, place, key, number::parse)).transpose()?;
         }
         let [curvature_in, curvature_out, tension_in, tension_out, curl] = optional;
         Ok(Knot {
@@ -373,11 +328,8 @@ impl<'a> Source<'a> {
     fn join(&self, value: Value<'a>, place: &str) -> Result<Join> {
         let name = self.string(value, &format!("{place}`join`"))?;
         Join::from_name(&name).ok_or_else(|| {
-            self.error(
-                value,
-                format!("{place}there is no join `{}`", number::excerpt(&name)),
-            )
-            .hint(suggest(&name, Join::ALL.map(Join::name)))
+            self.error(value, format!("{place}there is no join `{}`", number::excerpt(&name)))
+                .hint(suggest(&name, Join::ALL.map(Join::name)))
         })
     }
 
@@ -393,14 +345,11 @@ impl<'a> Source<'a> {
             return Ok(None);
         };
         let mut choice = SplineChoice::new(match spline {
-            Some(spline) => self
-                .string(spline, &format!("{place}`spline`"))?
-                .into_owned(),
+            Some(spline) => self.string(spline, &format!("{place}`spline`"))?.into_owned(),
             None => default.name.clone(),
         });
         let refused = |token: Value<'a>, error: CatalogError| {
-            self.error(token, format!("{place}{error}"))
-                .hint(error.hint())
+            self.error(token, format!("{place}{error}")).hint(error.hint())
         };
         catalog::find(&choice.name).map_err(|error| refused(whole, error))?;
         let Some(params) = params else {
@@ -410,10 +359,7 @@ impl<'a> Source<'a> {
         for (name, name_token, value) in self.entries(params, &format!("{place}`params`: "))? {
             let given = if value.get().starts_with('"') {
                 ParamValue::Text(self.unquote(value)?.into_owned())
-            } else if value
-                .get()
-                .starts_with(|c: char| c == '-' || c.is_ascii_digit())
-            {
+            } else if value.get().starts_with(|c: char| c == '-' || c.is_ascii_digit()) {
                 ParamValue::Number(self.number(value, place, &name, number::parse)?)
             } else {
                 let what = format!("{place}parameter `{}`", number::excerpt(&name));
@@ -444,11 +390,7 @@ impl<'a> Source<'a> {
     fn syntax_error(&self, error: &serde_json::Error) -> FormatError {
         let line_start = match error.line() {
             0 | 1 => 0,
-            line => self
-                .text
-                .match_indices('\n')
-                .nth(line - 2)
-                .map_or(0, |(at, _)| at + 1),
+            line => self.text.match_indices('\n').nth(line - 2).map_or(0, |(at, _)| at + 1),
         };
         let at = (line_start + error.column().saturating_sub(1)).min(self.text.len());
         let start = self.bytes.len() - self.text.len();
@@ -466,18 +408,13 @@ impl<'a> Source<'a> {
         let found = &self.text[token.clone()];
         let message = match found {
             "" => format!("malformed JSON: {}", reason(error)),
-            found => format!(
-                "malformed JSON: {}, found `{}`",
-                reason(error),
-                number::excerpt(found)
-            ),
+            found => {
+                format!("malformed JSON: {}, found `{}`", reason(error), number::excerpt(found))
+            }
         };
         let span = token.start + start..token.end + start;
         let error = FormatError::new(message).at(self.bytes, span);
-        match SYNTAX_HINTS
-            .iter()
-            .find(|(starts, _)| starts.iter().any(|s| found.starts_with(s)))
-        {
+        match SYNTAX_HINTS.iter().find(|(starts, _)| starts.iter().any(|s| found.starts_with(s))) {
             Some((_, hint)) => error.hint(*hint),
             None => error,
         }
@@ -509,10 +446,7 @@ const SYNTAX_HINTS: &[(&[&str], &str)] = &[
     (&["/", "#"], "JSON has no comments"),
     (&["+", "."], "write numbers such as 0.5 or -12"),
     (&["}", "]"], "a comma before it may be one too many"),
-    (
-        &["True", "False", "None"],
-        "write `true`, `false`, or leave the key out",
-    ),
+    (&["True", "False", "None"], "write `true`, `false`, or leave the key out"),
 ];
 
 /// An object's keys and values as they stand, in order.
@@ -582,31 +516,19 @@ fn reason(error: &serde_json::Error) -> String {
 fn unfinished(reason: &str) -> String {
     match reason.strip_prefix("EOF while parsing ") {
         Some(what @ ("a value" | "a list" | "a string" | "an object")) => format!("inside {what}"),
-        Some(what) => format!("inside a {what}")
-            .replace("a an ", "an ")
-            .replace("a a ", "a "),
+        Some(what) => format!("inside a {what}").replace("a an ", "an ").replace("a a ", "a "),
         None => reason.to_owned(),
     }
 }
 
 /// The word, number or sign at (or, if only blanks stand there, nowhere near) byte `at`.
 fn token_around(text: &str, at: usize) -> Range<usize> {
-    let at = (0..=at)
-        .rev()
-        .find(|&at| text.is_char_boundary(at))
-        .unwrap_or(0);
+    let at = (0..=at).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
     let is_word = |c: char| c.is_alphanumeric() || "+-._".contains(c);
-    let word_before: usize = text[..at]
-        .chars()
-        .rev()
-        .take_while(|&c| is_word(c))
-        .map(char::len_utf8)
-        .sum();
-    let word_after: usize = text[at..]
-        .chars()
-        .take_while(|&c| is_word(c))
-        .map(char::len_utf8)
-        .sum();
+    let word_before: usize =
+        text[..at].chars().rev().take_while(|&c| is_word(c)).map(char::len_utf8).sum();
+    let word_after: usize =
+        text[at..].chars().take_while(|&c| is_word(c)).map(char::len_utf8).sum();
     match text[at..].chars().next() {
         Some(c) if is_word(c) => at - word_before..at + word_after,
         Some(c) if !c.is_whitespace() => at..at + c.len_utf8(),
@@ -639,11 +561,7 @@ pub fn write(document: &Document) -> Result<String> {
         }
         Ok(text)
     };
-    let _ = write!(
-        out,
-        "{{\n  \"faircurve\": {VERSION},\n  {},\n",
-        choice(&document.spline)?
-    );
+    let _ = write!(out, "{{\n  \"faircurve\": {VERSION},\n  {},\n", choice(&document.spline)?);
     out.push_str("  \"glyphs\": [");
     for (index, glyph) in document.glyphs.iter().enumerate() {
         out.push_str(if index == 0 { "\n    {" } else { ",\n    {" });
@@ -654,36 +572,20 @@ pub fn write(document: &Document) -> Result<String> {
         }
         out.push_str("\"contours\": [");
         for (index, contour) in glyph.contours.iter().enumerate() {
-            out.push_str(if index == 0 {
-                "\n      {"
-            } else {
-                ",\n      {"
-            });
+            out.push_str(if index == 0 { "\n      {" } else { ",\n      {" });
             if let Some(own) = &contour.spline {
                 let _ = write!(out, "{}, ", choice(own)?);
             }
             let _ = write!(out, "\"closed\": {}, \"knots\": [", contour.contour.closed);
             for (index, knot) in contour.contour.knots.iter().enumerate() {
-                out.push_str(if index == 0 {
-                    "\n        "
-                } else {
-                    ",\n        "
-                });
+                out.push_str(if index == 0 { "\n        " } else { ",\n        " });
                 write_knot(&mut out, knot)?;
             }
             out.push_str("\n      ]}");
         }
-        out.push_str(if glyph.contours.is_empty() {
-            "]}"
-        } else {
-            "\n    ]}"
-        });
+        out.push_str(if glyph.contours.is_empty() { "]}" } else { "\n    ]}" });
     }
-    out.push_str(if document.glyphs.is_empty() {
-        "]\n}\n"
-    } else {
-        "\n  ]\n}\n"
-    });
+    out.push_str(if document.glyphs.is_empty() { "]\n}\n" } else { "\n  ]\n}\n" });
     Ok(out)
 }
 
@@ -698,28 +600,15 @@ fn write_knot(out: &mut String, knot: &Knot) -> Result<()> {
     let tangents = if bits(knot.tangent_in) == bits(knot.tangent_out) {
         [("tangent", knot.tangent_in), ("tangent", None)]
     } else {
-        [
-            ("tangent_in", knot.tangent_in),
-            ("tangent_out", knot.tangent_out),
-        ]
+        [("tangent_in", knot.tangent_in), ("tangent_out", knot.tangent_out)]
     };
     for (key, tangent) in tangents {
         if let Some(Vec2 { x, y }) = tangent {
-            let _ = write!(
-                out,
-                ", \"{key}\": [{}, {}]",
-                finite(x, key)?,
-                finite(y, key)?
-            );
+            let _ = write!(out, ", \"{key}\": [{}, {}]", finite(x, key)?, finite(y, key)?);
         }
     }
-    let numbers = [
-        knot.curvature_in,
-        knot.curvature_out,
-        knot.tension_in,
-        knot.tension_out,
-        knot.curl,
-    ];
+    let numbers =
+        [knot.curvature_in, knot.curvature_out, knot.tension_in, knot.tension_out, knot.curl];
     for (key, number) in KNOT_KEYS[6..].iter().zip(numbers) {
         if let Some(number) = number {
             let _ = write!(out, ", \"{key}\": {}", finite(number, key)?);
@@ -733,9 +622,7 @@ fn finite(number: f64, what: &str) -> Result<String> {
     if number.is_finite() {
         Ok(number::write(number))
     } else {
-        Err(FormatError::new(format!(
-            "JSON can't hold `{what}`: {number}"
-        )))
+        Err(FormatError::new(format!("JSON can't hold `{what}`: {number}")))
     }
 }
 

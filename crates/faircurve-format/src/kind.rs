@@ -71,19 +71,14 @@ impl Kind {
     /// [`FormatError`] whose hint has the near extensions.
     pub fn from_extension(extension: &str) -> Result<&'static Kind, FormatError> {
         let extension = extension.to_lowercase();
-        KINDS
-            .iter()
-            .find(|kind| kind.extensions.contains(&extension.as_str()))
-            .ok_or_else(|| {
-                let known = KINDS
-                    .iter()
-                    .flat_map(|kind| kind.extensions.iter().copied());
-                let message = match extension.as_str() {
-                    "" => "the file's name has no extension that tells its format".to_owned(),
-                    _ => format!("no input format has the extension `{extension}`"),
-                };
-                FormatError::new(message).hint(suggest(&extension, known))
-            })
+        KINDS.iter().find(|kind| kind.extensions.contains(&extension.as_str())).ok_or_else(|| {
+            let known = KINDS.iter().flat_map(|kind| kind.extensions.iter().copied());
+            let message = match extension.as_str() {
+                "" => "the file's name has no extension that tells its format".to_owned(),
+                _ => format!("no input format has the extension `{extension}`"),
+            };
+            FormatError::new(message).hint(suggest(&extension, known))
+        })
     }
 }
 

@@ -20,10 +20,7 @@ pub(crate) fn parse(text: &str) -> Result<f64, String> {
 pub(crate) fn parse_coordinate(text: &str) -> Result<f64, String> {
     let number = parse(text)?;
     if number.abs() > LARGEST_COORDINATE {
-        return Err(format!(
-            "`{}` lies beyond {LARGEST_COORDINATE:e} units",
-            excerpt(text)
-        ));
+        return Err(format!("`{}` lies beyond {LARGEST_COORDINATE:e} units", excerpt(text)));
     }
     Ok(number)
 }
@@ -82,15 +79,9 @@ mod tests {
     fn what_is_no_number_says_so() {
         assert_eq!(parse("NaN").unwrap_err(), "`NaN` is not a finite number");
         assert_eq!(parse("-inf").unwrap_err(), "`-inf` is not a finite number");
-        assert_eq!(
-            parse("1e999").unwrap_err(),
-            "`1e999` is beyond the largest number"
-        );
+        assert_eq!(parse("1e999").unwrap_err(), "`1e999` is beyond the largest number");
         assert_eq!(parse("").unwrap_err(), "a number is missing");
         assert_eq!(parse("1,5").unwrap_err(), "`1,5` is not a number");
-        assert_eq!(
-            parse_coordinate("1e300").unwrap_err(),
-            "`1e300` lies beyond 1e90 units"
-        );
+        assert_eq!(parse_coordinate("1e300").unwrap_err(), "`1e300` lies beyond 1e90 units");
     }
 }

@@ -18,10 +18,7 @@ pub const MOST_PIXELS: u64 = 100_000_000;
 /// The width at which a picture of this shape has about two million pixels.
 pub fn default_width(picture: &Picture) -> u32 {
     const PIXELS: f64 = 2e6;
-    (PIXELS * picture.aspect())
-        .sqrt()
-        .round()
-        .clamp(1.0, f64::from(LARGEST_SIDE)) as u32
+    (PIXELS * picture.aspect()).sqrt().round().clamp(1.0, f64::from(LARGEST_SIDE)) as u32
 }
 
 /// The picture can't be drawn at this size.
@@ -35,11 +32,7 @@ pub struct PngError {
 
 impl fmt::Display for PngError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "a PNG of {} × {} pixels can't be drawn",
-            self.width, self.height
-        )
+        write!(f, "a PNG of {} × {} pixels can't be drawn", self.width, self.height)
     }
 }
 
@@ -57,10 +50,8 @@ pub fn write(picture: &Picture, width: u32) -> Result<Vec<u8>, PngError> {
     if width > LARGEST_SIDE || u64::from(width) * height > MOST_PIXELS {
         return Err(error);
     }
-    let height = u32::try_from(height)
-        .ok()
-        .filter(|height| *height <= LARGEST_SIDE)
-        .ok_or(error)?;
+    let height =
+        u32::try_from(height).ok().filter(|height| *height <= LARGEST_SIDE).ok_or(error)?;
     let mut pixels = Pixmap::new(width, height).ok_or(error)?;
     pixels.fill(Color::WHITE);
     // In double precision up to here, so that pictures of any scale come out the same.
@@ -99,9 +90,7 @@ fn pen(stroke: Stroke, scale: f64) -> tiny_skia::Stroke {
     tiny_skia::Stroke {
         width: pixels(stroke.width),
         line_join: LineJoin::Round,
-        dash: stroke
-            .dashes()
-            .and_then(|d| StrokeDash::new(d.map(pixels).to_vec(), 0.0)),
+        dash: stroke.dashes().and_then(|d| StrokeDash::new(d.map(pixels).to_vec(), 0.0)),
         ..tiny_skia::Stroke::default()
     }
 }

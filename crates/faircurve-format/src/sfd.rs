@@ -48,22 +48,10 @@ type Result<T> = std::result::Result<T, FormatError>;
 /// [`FormatError`] where a block breaks the rules above, and if the file doesn't end where it
 /// should: a file that was cut off is never read by half.
 pub fn read(bytes: &[u8]) -> Result<Document> {
-    let start = if bytes.starts_with(b"\xef\xbb\xbf") {
-        3
-    } else {
-        0
-    };
-    let mut reader = Reader {
-        bytes,
-        next: start,
-        layers: default_layers(),
-        glyphs: Vec::new(),
-    };
+    let start = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
+    let mut reader = Reader { bytes, next: start, layers: default_layers(), glyphs: Vec::new() };
     reader.file()?;
-    Ok(Document {
-        spline: SplineChoice::default(),
-        glyphs: reader.glyphs,
-    })
+    Ok(Document { spline: SplineChoice::default(), glyphs: reader.glyphs })
 }
 
 /// Layer names by number.
@@ -116,10 +104,8 @@ impl<'a> Reader<'a> {
             self.next = first.start;
             self.glyph_file()
         } else {
-            Err(
-                FormatError::new(format!("this is not an SFD file; {EXPECTED}"))
-                    .at(self.bytes, first.span()),
-            )
+            Err(FormatError::new(format!("this is not an SFD file; {EXPECTED}"))
+                .at(self.bytes, first.span()))
         }
     }
 
@@ -135,10 +121,7 @@ impl<'a> Reader<'a> {
                     self.layers.insert(number, name);
                 }
             } else if line.is("Grid") {
-                let mut grid = Glyph {
-                    layer: "Grid".to_owned(),
-                    ..Glyph::default()
-                };
+                let mut grid = Glyph { layer: "Grid".to_owned(), ..Glyph::default() };
                 self.spline_set(&mut grid, "guide lines")?;
                 self.keep(grid);
             } else {
@@ -157,10 +140,8 @@ impl<'a> Reader<'a> {
             match line.after("StartChar:") {
                 Some(name) => self.glyph(name)?,
                 None => {
-                    return Err(
-                        FormatError::new("expected the end of the file after `EndChar`")
-                            .at(self.bytes, line.span()),
-                    );
+                    return Err(FormatError::new("expected the end of the file after `EndChar`")
+                        .at(self.bytes, line.span()));
                 }
             }
         }
@@ -196,10 +177,8 @@ impl<'a> Reader<'a> {
                 });
                 self.spline_set(glyph, &place)?;
             } else if is_boundary(line) {
-                return Err(
-                    FormatError::new(format!("{place}: expected `EndChar` before this"))
-                        .at(self.bytes, line.span()),
-                );
+                return Err(FormatError::new(format!("{place}: expected `EndChar` before this"))
+                    .at(self.bytes, line.span()));
             } else {
                 self.skip_data(line)?;
             }
@@ -239,11 +218,7 @@ impl<'a> Reader<'a> {
         let mut points = Vec::new();
         let mut ended = false;
         loop {
-            let expected = if ended {
-                "`EndSpiro`"
-            } else {
-                "a point, `x y type`"
-            };
+            let expected = if ended { "`EndSpiro`" } else { "a point, `x y type`" };
             let line = self.line_of(
                 &format!("inside the Spiro points of {place}"),
                 &format!("expected {expected}"),
@@ -281,10 +256,8 @@ impl<'a> Reader<'a> {
         }
         let [x, y, kind] = &fields[..] else {
             let shown = String::from_utf8_lossy(line.text);
-            let message = format!(
-                "{place}: expected a point, `x y type`, not `{}`",
-                number::excerpt(&shown)
-            );
+            let message =
+                format!("{place}: expected a point, `x y type`, not `{}`", number::excerpt(&shown));
             return Err(FormatError::new(message).at(self.bytes, line.span()));
         };
         let coordinate = |place_of: &Range<usize>| {
@@ -297,17 +270,13 @@ impl<'a> Reader<'a> {
         /// Set in the type of a point that was selected when the font was saved.
         const SELECTED: u8 = 0x80;
         match &self.bytes[kind.clone()] {
-            [letter] if b"vco[]{}ahz".contains(&(letter & !SELECTED)) => Ok(SpiroPoint {
-                point,
-                letter: letter & !SELECTED,
-                span: line.span(),
-            }),
+            [letter] if b"vco[]{}ahz".contains(&(letter & !SELECTED)) => {
+                Ok(SpiroPoint { point, letter: letter & !SELECTED, span: line.span() })
+            }
             other => {
                 let other = String::from_utf8_lossy(other);
-                let message = format!(
-                    "{place}: there is no point type `{}`",
-                    number::excerpt(&other)
-                );
+                let message =
+                    format!("{place}: there is no point type `{}`", number::excerpt(&other));
                 Err(FormatError::new(message)
                     .at(self.bytes, kind.clone())
                     .hint("the types are v o c [ ] { } a h, and z at the end"))
@@ -346,10 +315,7 @@ impl<'a> Reader<'a> {
                             return Err(refuse("`a` and `h` are at one place, so give no tangent"));
                         }
                         // Both sides as libspiro solves them: flat where they meet.
-                        knot.join(Join::G1)
-                            .tangent(tangent)
-                            .curvature_in(0.0)
-                            .curvature_out(0.0)
+                        knot.join(Join::G1).tangent(tangent).curvature_in(0.0).curvature_out(0.0)
                     }
                     _ => return Err(refuse("after an anchor `a` comes its handle `h`")),
                 },
@@ -359,10 +325,7 @@ impl<'a> Reader<'a> {
         if open && let Some(last) = knots.last_mut() {
             last.join = None;
         }
-        Ok(Contour {
-            knots,
-            closed: !open,
-        })
+        Ok(Contour { knots, closed: !open })
     }
 
     /// The next line that isn't blank.
@@ -401,16 +364,12 @@ impl<'a> Reader<'a> {
     fn skip_data(&mut self, line: Line<'a>) -> Result<()> {
         for (start, end) in [("Image:", "EndImage"), ("Image2:", "EndImage2")] {
             if line.after(start).is_some() {
-                while !self
-                    .line_of("inside an image", &format!("expected `{end}`"))?
-                    .is(end)
-                {}
+                while !self.line_of("inside an image", &format!("expected `{end}`"))?.is(end) {}
                 return Ok(());
             }
         }
-        if let Some(data) = line
-            .after("PickledData:")
-            .or_else(|| line.after("PickledDataWithLists:"))
+        if let Some(data) =
+            line.after("PickledData:").or_else(|| line.after("PickledDataWithLists:"))
             && let Some(quote) = data.iter().position(|&b| b == b'"')
         {
             let mut at = line.span().end - data.len() + quote + 1;
@@ -431,10 +390,7 @@ impl<'a> Reader<'a> {
     /// Goes to the end of a line that has been read in part.
     fn line_end(&mut self) {
         let rest = &self.bytes[self.next.min(self.bytes.len())..];
-        self.next += rest
-            .iter()
-            .position(|&b| b == b'\n')
-            .map_or(rest.len(), |at| at + 1);
+        self.next += rest.iter().position(|&b| b == b'\n').map_or(rest.len(), |at| at + 1);
     }
 }
 
@@ -458,10 +414,7 @@ fn declared_layer(text_after: &[u8]) -> Option<(u32, String)> {
 }
 
 fn number_at_start(text: &[u8]) -> Option<u32> {
-    let word = text
-        .trim_ascii_start()
-        .split(u8::is_ascii_whitespace)
-        .next()?;
+    let word = text.trim_ascii_start().split(u8::is_ascii_whitespace).next()?;
     std::str::from_utf8(word).ok()?.parse().ok()
 }
 
@@ -469,10 +422,7 @@ fn number_at_start(text: &[u8]) -> Option<u32> {
 fn text(raw: &[u8]) -> String {
     let raw = raw.trim_ascii();
     let plain = String::from_utf8_lossy(raw);
-    match plain
-        .strip_prefix('"')
-        .and_then(|rest| rest.strip_suffix('"'))
-    {
+    match plain.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')) {
         Some(quoted) => from_utf7(quoted).unwrap_or_else(|| quoted.to_owned()),
         None => plain.into_owned(),
     }
@@ -485,10 +435,7 @@ fn from_utf7(text: &str) -> Option<String> {
     let mut rest = text;
     while let Some((plain, after)) = rest.split_once('+') {
         decoded.push_str(plain);
-        let length = after
-            .bytes()
-            .take_while(|byte| BASE64.contains(byte))
-            .count();
+        let length = after.bytes().take_while(|byte| BASE64.contains(byte)).count();
         let (coded, after) = after.split_at(length);
         rest = after.strip_prefix('-').unwrap_or(after);
         if coded.is_empty() {
@@ -527,10 +474,7 @@ mod tests {
 
     #[test]
     fn layers_are_declared_by_number() {
-        assert_eq!(
-            declared_layer(b" 2 0 \"Back 2\" 0"),
-            Some((2, "Back 2".to_owned()))
-        );
+        assert_eq!(declared_layer(b" 2 0 \"Back 2\" 0"), Some((2, "Back 2".to_owned())));
         assert_eq!(declared_layer(b" 2 0 \"Back"), None);
         assert_eq!(declared_layer(b""), None);
     }

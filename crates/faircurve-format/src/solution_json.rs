@@ -39,18 +39,13 @@ pub fn write(glyphs: &[SolvedGlyph], samples: Option<usize>) -> String {
             .map(|glyph| GlyphEntry {
                 name: &glyph.name,
                 layer: &glyph.layer,
-                contours: glyph
-                    .contours
-                    .iter()
-                    .map(|c| contour_entry(c, samples))
-                    .collect(),
+                contours: glyph.contours.iter().map(|c| contour_entry(c, samples)).collect(),
             })
             .collect(),
     };
     let mut text = Vec::new();
     let mut serializer = Serializer::with_formatter(&mut text, RowFormatter::default());
-    file.serialize(&mut serializer)
-        .expect("plain data into memory always serialises");
+    file.serialize(&mut serializer).expect("plain data into memory always serialises");
     text.push(b'\n');
     String::from_utf8(text).expect("JSON is UTF-8")
 }
@@ -139,11 +134,7 @@ fn contour_entry(contour: &SolvedContour, samples: Option<usize>) -> ContourEntr
         iterations: report.iterations,
         residual: report.residual,
         knots: contour.solution.knots.iter().map(knot_entry).collect(),
-        segments: curve
-            .segments()
-            .iter()
-            .map(|s| segment_entry(s, samples))
-            .collect(),
+        segments: curve.segments().iter().map(|s| segment_entry(s, samples)).collect(),
         length: curve.length(),
         bending_energy: curve.bending_energy(),
         variation_energy: curve.variation_energy(),
@@ -168,11 +159,7 @@ fn relaxed_entry(relaxed: &Relaxation) -> RelaxedEntry<'_> {
 }
 
 fn adapted_entry(adapted: &Adaptation) -> AdaptedEntry {
-    AdaptedEntry {
-        place: place_entry(adapted.place),
-        asked: adapted.asked,
-        got: adapted.got,
-    }
+    AdaptedEntry { place: place_entry(adapted.place), asked: adapted.asked, got: adapted.got }
 }
 
 fn knot_entry(knot: &SolvedKnot) -> KnotEntry {
@@ -193,15 +180,9 @@ fn segment_entry(segment: &Segment, samples: Option<usize>) -> SegmentEntry {
         [s, at.point.x, at.point.y, at.direction, at.curvature]
     };
     let rows = |steps: usize| {
-        (0..=steps)
-            .map(|i| row(segment.length() * (i as f64 / steps.max(1) as f64)))
-            .collect()
+        (0..=steps).map(|i| row(segment.length() * (i as f64 / steps.max(1) as f64))).collect()
     };
-    SegmentEntry {
-        length: segment.length(),
-        kappa: segment.kappa(),
-        samples: samples.map(rows),
-    }
+    SegmentEntry { length: segment.length(), kappa: segment.kappa(), samples: samples.map(rows) }
 }
 
 /// JSON that people can read and compare line by line: glyphs and contours are spread out; a knot,

@@ -42,20 +42,11 @@ impl SolvedGlyph {
         contours: impl IntoIterator<Item = (String, Solution)>,
         accuracy: Option<f64>,
     ) -> Self {
-        let mut glyph = SolvedGlyph {
-            name: name.into(),
-            layer: layer.into(),
-            contours: vec![],
-        };
-        let unconverted = |(spline, solution)| SolvedContour {
-            spline,
-            solution,
-            path: BezPath::new(),
-        };
+        let mut glyph = SolvedGlyph { name: name.into(), layer: layer.into(), contours: vec![] };
+        let unconverted =
+            |(spline, solution)| SolvedContour { spline, solution, path: BezPath::new() };
         glyph.contours = contours.into_iter().map(unconverted).collect();
-        let side = glyph
-            .bounding_box()
-            .map_or(0.0, |bounds| bounds.width().max(bounds.height()));
+        let side = glyph.bounding_box().map_or(0.0, |bounds| bounds.width().max(bounds.height()));
         let accuracy = accuracy.unwrap_or(DEFAULT_ACCURACY * side);
         for contour in &mut glyph.contours {
             contour.path = convert::to_bezpath(&contour.solution.curve, accuracy);
@@ -65,10 +56,7 @@ impl SolvedGlyph {
 
     /// The smallest box that holds every curve; `None` for a glyph without contours.
     pub fn bounding_box(&self) -> Option<Rect> {
-        let boxes = self
-            .contours
-            .iter()
-            .filter_map(|c| c.solution.curve.bounding_box());
+        let boxes = self.contours.iter().filter_map(|c| c.solution.curve.bounding_box());
         boxes.reduce(|a, b| a.union(b))
     }
 }

@@ -23,9 +23,7 @@ pub fn write(picture: &Picture) -> String {
     );
     if picture.ground {
         let ground = format!("x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"");
-        svg.push_str(&format!(
-            "<rect class=\"ground\" {ground} fill=\"#ffffff\"/>\n"
-        ));
+        svg.push_str(&format!("<rect class=\"ground\" {ground} fill=\"#ffffff\"/>\n"));
     }
     for cell in &picture.cells {
         write_cell(&mut svg, cell, picture.decimals);
@@ -42,10 +40,7 @@ fn write_cell(svg: &mut String, cell: &Cell, decimals: usize) {
         }
     }
     if cell.offset != Vec2::ZERO {
-        let (x, y) = (
-            rounded(cell.offset.x, decimals),
-            rounded(cell.offset.y, decimals),
-        );
+        let (x, y) = (rounded(cell.offset.x, decimals), rounded(cell.offset.y, decimals));
         svg.push_str(&format!(" transform=\"translate({x} {y})\""));
     }
     svg.push_str(">\n");
@@ -56,21 +51,10 @@ fn write_cell(svg: &mut String, cell: &Cell, decimals: usize) {
 }
 
 fn write_mark(svg: &mut String, mark: &Mark, decimals: usize) {
-    let data = if mark.exact {
-        path_data(&mark.path)
-    } else {
-        rounded_data(&mark.path, decimals)
-    };
-    let fill = mark.fill.map_or("fill=\"none\"".to_owned(), |paint| {
-        attributes("fill", paint)
-    });
-    let stroke = mark
-        .stroke
-        .map_or(String::new(), |stroke| stroke_attributes(stroke, decimals));
-    svg.push_str(&format!(
-        "<path class=\"{}\" {fill}{stroke} d=\"{data}\"/>\n",
-        mark.class
-    ));
+    let data = if mark.exact { path_data(&mark.path) } else { rounded_data(&mark.path, decimals) };
+    let fill = mark.fill.map_or("fill=\"none\"".to_owned(), |paint| attributes("fill", paint));
+    let stroke = mark.stroke.map_or(String::new(), |stroke| stroke_attributes(stroke, decimals));
+    svg.push_str(&format!("<path class=\"{}\" {fill}{stroke} d=\"{data}\"/>\n", mark.class));
 }
 
 fn attributes(kind: &str, paint: Paint) -> String {
@@ -125,11 +109,7 @@ fn rounded(x: f64, decimals: usize) -> String {
     } else {
         text.as_str()
     };
-    if text == "-0" {
-        "0".to_owned()
-    } else {
-        text.to_owned()
-    }
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
 /// Text for an attribute's value. Characters that XML can't hold become U+FFFD.

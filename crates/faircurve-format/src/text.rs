@@ -8,11 +8,9 @@ pub(crate) fn text_of(bytes: &[u8]) -> Result<&str, FormatError> {
         Ok(text) => Ok(text.strip_prefix('\u{feff}').unwrap_or(text)),
         Err(error) => {
             let at = error.valid_up_to();
-            Err(
-                FormatError::new(format!("the byte {:#04x} is not UTF-8 text", bytes[at]))
-                    .at(bytes, at..at + 1)
-                    .hint("save the file as UTF-8"),
-            )
+            Err(FormatError::new(format!("the byte {:#04x} is not UTF-8 text", bytes[at]))
+                .at(bytes, at..at + 1)
+                .hint("save the file as UTF-8"))
         }
     }
 }

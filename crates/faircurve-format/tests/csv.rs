@@ -17,29 +17,20 @@ fn rows_are_read() {
             Knot::new((300.0, 100.0)),
             Knot::new((200.0, 400.0)),
         ]),
-        Contour::open([
-            Knot::new((-500.0, 0.5)).join(Join::G2),
-            Knot::new((600.0, 100.0)),
-        ]),
+        Contour::open([Knot::new((-500.0, 0.5)).join(Join::G2), Knot::new((600.0, 100.0))]),
     ]);
     assert_eq!(parse("csv", text).unwrap(), expected);
     assert_eq!(parse("csv", text.replace('\n', "\r\n")).unwrap(), expected);
     assert_eq!(parse("csv", format!("\u{feff}{text}")).unwrap(), expected);
     // A spreadsheet's way to leave a row blank.
-    assert_eq!(
-        parse("csv", text.replace("\n\n\n", "\n,,\n")).unwrap(),
-        expected
-    );
+    assert_eq!(parse("csv", text.replace("\n\n\n", "\n,,\n")).unwrap(), expected);
 }
 
 #[test]
 fn closing_waits_for_the_next_contour() {
     let document = parse("csv", "0,0\n1,1\n\n# closed\n\n# remark\n2,2\n").unwrap();
-    let closed: Vec<bool> = document.glyphs[0]
-        .contours
-        .iter()
-        .map(|contour| contour.contour.closed)
-        .collect();
+    let closed: Vec<bool> =
+        document.glyphs[0].contours.iter().map(|contour| contour.contour.closed).collect();
     assert_eq!(closed, [false, true]);
 }
 
@@ -130,10 +121,7 @@ fn mistakes_are_explained() {
 #[test]
 fn a_million_knots_are_read() {
     let document = parse("csv", "0.125,-350,g2\n".repeat(1_000_000)).unwrap();
-    assert_eq!(
-        document.glyphs[0].contours[0].contour.knots.len(),
-        1_000_000
-    );
+    assert_eq!(document.glyphs[0].contours[0].contour.knots.len(), 1_000_000);
 }
 
 #[test]
@@ -172,11 +160,7 @@ fn document() -> impl Strategy<Value = Document> {
         (number.clone(), number),
         proptest::option::of(proptest::sample::select(Join::ALL.to_vec())),
     )
-        .prop_map(|(point, join)| Knot {
-            point: point.into(),
-            join,
-            ..Knot::default()
-        });
+        .prop_map(|(point, join)| Knot { point: point.into(), join, ..Knot::default() });
     let contour = (proptest::collection::vec(knot, 1..5), any::<bool>())
         .prop_map(|(knots, closed)| Contour { knots, closed });
     proptest::collection::vec(contour, 1..4).prop_map(Document::unnamed)

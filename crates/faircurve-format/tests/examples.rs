@@ -33,9 +33,7 @@ fn the_joins_are_all_shown() {
 #[test]
 fn the_circle_is_one() {
     let document = example("circle.csv");
-    let [contour] = &document.glyphs[0].contours[..] else {
-        panic!("one contour")
-    };
+    let [contour] = &document.glyphs[0].contours[..] else { panic!("one contour") };
     assert!(contour.contour.closed);
     let centre = (300.0, 300.0).into();
     for knot in &contour.contour.knots {
@@ -46,13 +44,8 @@ fn the_circle_is_one() {
 #[test]
 fn the_comma_is_drawn_with_spiro() {
     let document = example("comma.sfd");
-    let [glyph] = &document.glyphs[..] else {
-        panic!("one glyph")
-    };
-    assert_eq!(
-        (glyph.name.as_str(), glyph.layer.as_str()),
-        ("comma", "Fore")
-    );
+    let [glyph] = &document.glyphs[..] else { panic!("one glyph") };
+    assert_eq!((glyph.name.as_str(), glyph.layer.as_str()), ("comma", "Fore"));
     assert!(glyph.contours[0].contour.closed);
 }
 

@@ -20,9 +20,8 @@ fn font(name: &str) -> Option<Vec<u8>> {
 
 fn counts(document: &Document) -> (usize, usize) {
     let contours = document.glyphs.iter().flat_map(|glyph| &glyph.contours);
-    contours.fold((0, 0), |(count, knots), contour| {
-        (count + 1, knots + contour.contour.knots.len())
-    })
+    contours
+        .fold((0, 0), |(count, knots), contour| (count + 1, knots + contour.contour.knots.len()))
 }
 
 /// Contours and points as the fonts' README counts them.
@@ -49,9 +48,7 @@ fn glyphs_and_layers_have_their_names() {
     let document = parse("sfd", bytes).unwrap();
     let layers_of = |name: &str| -> Vec<(&str, usize)> {
         let glyphs = document.glyphs.iter().filter(|glyph| glyph.name == name);
-        glyphs
-            .map(|glyph| (glyph.layer.as_str(), glyph.contours.len()))
-            .collect()
+        glyphs.map(|glyph| (glyph.layer.as_str(), glyph.contours.len())).collect()
     };
     assert_eq!(layers_of("v"), [("Back", 3), ("Fore", 2), ("Back 2", 3)]);
     assert_eq!(layers_of(""), [("Grid", 3)]);
@@ -62,11 +59,7 @@ fn fonts_survive_the_way_through_json() {
     for (name, ..) in COUNTS {
         let Some(bytes) = font(name) else { continue };
         let document = parse("sfd", bytes).unwrap();
-        assert_eq!(
-            parse("json", json::write(&document).unwrap()).unwrap(),
-            document,
-            "{name}"
-        );
+        assert_eq!(parse("json", json::write(&document).unwrap()).unwrap(), document, "{name}");
     }
 }
 
@@ -77,10 +70,7 @@ fn a_cut_off_font_is_an_error() {
         let end = bytes.trim_ascii_end().len();
         for part in 0..64 {
             let cut = end * part / 64;
-            assert!(
-                parse("sfd", &bytes[..cut]).is_err(),
-                "{name} after {cut} bytes"
-            );
+            assert!(parse("sfd", &bytes[..cut]).is_err(), "{name} after {cut} bytes");
         }
         assert!(parse("sfd", &bytes[..end - 1]).is_err());
         assert!(parse("sfd", &bytes[..end]).is_ok());

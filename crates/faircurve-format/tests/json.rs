@@ -27,25 +27,17 @@ fn with_knots(knots: &str) -> String {
 fn a_document_is_read() {
     let contour = Contour::closed([
         Knot::new((0.0, 0.0)).join(Join::G4),
-        Knot::new((90.0, 10.0))
-            .join(Join::Corner)
-            .tangent_out((1.0, 0.0)),
+        Knot::new((90.0, 10.0)).join(Join::Corner).tangent_out((1.0, 0.0)),
     ]);
     let glyph = Glyph {
         name: "a".to_owned(),
         layer: "Fore".to_owned(),
         contours: vec![DocumentContour::from(contour)],
     };
-    let expected = Document {
-        spline: SplineChoice::new("spiro"),
-        glyphs: vec![glyph],
-    };
+    let expected = Document { spline: SplineChoice::new("spiro"), glyphs: vec![glyph] };
     assert_eq!(parse("json", DOCUMENT).unwrap(), expected);
     // An editor's byte order mark changes nothing.
-    assert_eq!(
-        parse("json", format!("\u{feff}{DOCUMENT}")).unwrap(),
-        expected
-    );
+    assert_eq!(parse("json", format!("\u{feff}{DOCUMENT}")).unwrap(), expected);
 }
 
 #[test]
@@ -69,12 +61,7 @@ fn everything_at_a_knot_is_read() {
         curl: Some(1.0),
     };
     assert_eq!(knots[0], expected);
-    assert_eq!(
-        knots[1],
-        Knot::new((3.0, 4.0))
-            .tangent_in((1.0, 0.0))
-            .tangent_out((0.0, 1.0))
-    );
+    assert_eq!(knots[1], Knot::new((3.0, 4.0)).tangent_in((1.0, 0.0)).tangent_out((0.0, 1.0)));
 }
 
 #[test]
@@ -82,10 +69,7 @@ fn every_join_is_read_by_its_name() {
     for join in Join::ALL {
         let text = with_knots(&format!(r#"{{"x": 0, "y": 0, "join": "{join}"}}"#));
         let document = parse("json", text).unwrap();
-        assert_eq!(
-            document.glyphs[0].contours[0].contour.knots[0].join,
-            Some(join)
-        );
+        assert_eq!(document.glyphs[0].contours[0].contour.knots[0].join, Some(join));
     }
 }
 
@@ -98,9 +82,7 @@ fn a_contour_may_have_its_own_spline() {
         {"knots": [{"x": 0, "y": 0}], "params": {}}
     ], "spline": "euler"}"#;
     let document = parse("json", text).unwrap();
-    let [plain, own, params] = &document.glyphs[0].contours[..] else {
-        panic!("three contours")
-    };
+    let [plain, own, params] = &document.glyphs[0].contours[..] else { panic!("three contours") };
     assert_eq!(document.spline_of(plain), &SplineChoice::new("euler"));
     assert_eq!(document.spline_of(own), &SplineChoice::new("spiro"));
     assert_eq!(document.spline_of(params), &SplineChoice::new("euler"));
@@ -214,20 +196,10 @@ fn mistakes_in_the_choice_of_a_spline_are_explained() {
         assert_eq!(error.hint, Some(wrong.hint()));
     };
     let unknown = |name: &str| catalog::build(name, &Params::new()).unwrap_err();
-    check(
-        &with(r#""spline": "spirro""#),
-        "\"spirro\"",
-        "",
-        unknown("spirro"),
-    );
+    check(&with(r#""spline": "spirro""#), "\"spirro\"", "", unknown("spirro"));
     let contour = r#"{"faircurve": 1, "glyphs": [{"name": "a", "contours": [
         {"spline": "oiler", "knots": [{"x": 0, "y": 0}]}]}]}"#;
-    check(
-        contour,
-        "\"oiler\"",
-        "glyph `a`, contour 0: ",
-        unknown("oiler"),
-    );
+    check(contour, "\"oiler\"", "glyph `a`, contour 0: ", unknown("oiler"));
     for info in catalog::ENTRIES {
         let with =
             |params: &str| with(&format!(r#""params": {params}, "spline": "{}""#, info.name));
@@ -235,12 +207,7 @@ fn mistakes_in_the_choice_of_a_spline_are_explained() {
             let params = Params::new().with(name, ParamValue::Text(value.to_owned()));
             catalog::build(info.name, &params).unwrap_err()
         };
-        check(
-            &with(r#"{"tenshun": "?"}"#),
-            "\"tenshun\"",
-            "",
-            wrong("tenshun", "?"),
-        );
+        check(&with(r#"{"tenshun": "?"}"#), "\"tenshun\"", "", wrong("tenshun", "?"));
         for param in info.params {
             let params = format!(r#"{{"{}": "?"}}"#, param.name);
             check(&with(&params), "\"?\"", "", wrong(param.name, "?"));
@@ -251,12 +218,7 @@ fn mistakes_in_the_choice_of_a_spline_are_explained() {
 #[test]
 fn mistakes_in_contours_and_knots_are_explained() {
     let knot = |keys: &str| {
-        complaint(
-            "json",
-            with_knots(&format!(
-                "\n    {{\"x\": 0, \"y\": 0}},\n    {{{keys}}}\n  "
-            )),
-        )
+        complaint("json", with_knots(&format!("\n    {{\"x\": 0, \"y\": 0}},\n    {{{keys}}}\n  ")))
     };
     assert_snapshot!(complaint("json", with_knots("")), @r#"
     2:29: contour 0 has no knots
@@ -422,11 +384,7 @@ fn what_is_not_json_is_explained() {
       at: 
       hint: complete the file; it may have been cut off
     "#);
-    let deep = format!(
-        "{{\"faircurve\": {}{}}}",
-        "[".repeat(1_000_000),
-        "]".repeat(1_000_000)
-    );
+    let deep = format!("{{\"faircurve\": {}{}}}", "[".repeat(1_000_000), "]".repeat(1_000_000));
     assert_snapshot!(complaint("json", deep), @r#"
     1:15: version [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[… is unknown
       at: [
@@ -441,15 +399,9 @@ fn columns_count_characters() {
     assert_eq!((location.line, location.column), (1, 34));
     assert_eq!(&text[location.offset..][..location.length], "\"größe\"");
     let text = "{\"faircurve\": 1, \"spline\": \"größe\"}";
-    assert_eq!(
-        parse("json", text).unwrap_err().location.unwrap().column,
-        28
-    );
+    assert_eq!(parse("json", text).unwrap_err().location.unwrap().column, 28);
     let text = "{\"faircurve\": 1,\n \"glyphs\": [{\"name\": \"größe\", \"contours\": 5}]}";
-    assert_eq!(
-        parse("json", text).unwrap_err().location.unwrap().column,
-        43
-    );
+    assert_eq!(parse("json", text).unwrap_err().location.unwrap().column, 43);
 }
 
 #[test]
@@ -471,10 +423,7 @@ fn a_cut_off_document_is_an_error() {
 fn a_million_knots_are_read() {
     let knots = vec![r#"{"x": 0.125, "y": -3.5e2, "join": "g2"}"#; 1_000_000].join(",\n");
     let document = parse("json", with_knots(&knots)).unwrap();
-    assert_eq!(
-        document.glyphs[0].contours[0].contour.knots.len(),
-        1_000_000
-    );
+    assert_eq!(document.glyphs[0].contours[0].contour.knots.len(), 1_000_000);
 }
 
 #[test]
@@ -512,9 +461,7 @@ fn number() -> impl Strategy<Value = f64> {
 }
 
 fn direction() -> impl Strategy<Value = Vec2> {
-    (number(), number())
-        .prop_map(Vec2::from)
-        .prop_filter("a length", |&v| v != Vec2::ZERO)
+    (number(), number()).prop_map(Vec2::from).prop_filter("a length", |&v| v != Vec2::ZERO)
 }
 
 fn knot() -> impl Strategy<Value = Knot> {
@@ -548,11 +495,8 @@ fn knot() -> impl Strategy<Value = Knot> {
 
 /// Any spline of the catalogue, with any of its parameters set.
 fn choice() -> impl Strategy<Value = SplineChoice> {
-    (
-        proptest::sample::select(catalog::ENTRIES),
-        any::<(u8, f64)>(),
-    )
-        .prop_map(|(info, (which, between))| {
+    (proptest::sample::select(catalog::ENTRIES), any::<(u8, f64)>()).prop_map(
+        |(info, (which, between))| {
             let mut choice = SplineChoice::new(info.name);
             let part = (between.abs() % 1.0).max(0.0);
             for (index, spec) in info.params.iter().enumerate() {
@@ -567,29 +511,18 @@ fn choice() -> impl Strategy<Value = SplineChoice> {
                 }
             }
             choice
-        })
+        },
+    )
 }
 
 fn document() -> impl Strategy<Value = Document> {
-    let contour = (
-        proptest::collection::vec(knot(), 1..5),
-        any::<bool>(),
-        option::of(choice()),
-    )
+    let contour = (proptest::collection::vec(knot(), 1..5), any::<bool>(), option::of(choice()))
         .prop_map(|(knots, closed, spline)| DocumentContour {
             contour: Contour { knots, closed },
             spline,
         });
-    let glyph = (
-        any::<String>(),
-        any::<String>(),
-        proptest::collection::vec(contour, 0..3),
-    )
-        .prop_map(|(name, layer, contours)| Glyph {
-            name,
-            layer,
-            contours,
-        });
+    let glyph = (any::<String>(), any::<String>(), proptest::collection::vec(contour, 0..3))
+        .prop_map(|(name, layer, contours)| Glyph { name, layer, contours });
     (choice(), proptest::collection::vec(glyph, 0..3))
         .prop_map(|(spline, glyphs)| Document { spline, glyphs })
 }

@@ -18,10 +18,8 @@ fn formats_are_found_by_name_and_extension() {
 #[test]
 fn no_two_formats_share_a_name_or_extension() {
     let mut names: Vec<&str> = KINDS.iter().map(|kind| kind.name).collect();
-    let mut extensions: Vec<&str> = KINDS
-        .iter()
-        .flat_map(|kind| kind.extensions.iter().copied())
-        .collect();
+    let mut extensions: Vec<&str> =
+        KINDS.iter().flat_map(|kind| kind.extensions.iter().copied()).collect();
     for list in [&mut names, &mut extensions] {
         let count = list.len();
         list.sort_unstable();

@@ -151,10 +151,7 @@ fn knot(x: f64, y: f64, join: Join) -> Knot {
 #[test]
 fn every_spiro_block_is_read() {
     let anchor = |x: f64, y: f64, tangent: (f64, f64)| {
-        knot(x, y, Join::G1)
-            .tangent(tangent)
-            .curvature_in(0.0)
-            .curvature_out(0.0)
+        knot(x, y, Join::G1).tangent(tangent).curvature_in(0.0).curvature_out(0.0)
     };
     let fore = [
         Contour::closed([
@@ -169,21 +166,10 @@ fn every_spiro_block_is_read() {
         Contour::closed([knot(7.0, 7.0, Join::Corner)]),
     ];
     let draft = [
-        Contour::open([
-            Knot::new((1.0, 1.0)),
-            knot(2.0, 2.0, Join::G4),
-            Knot::new((3.0, 3.0)),
-        ]),
-        Contour::open([
-            Knot::new((4.0, 4.0)),
-            anchor(5.0, 5.0, (1.0, 0.0)),
-            Knot::new((7.0, 7.0)),
-        ]),
+        Contour::open([Knot::new((1.0, 1.0)), knot(2.0, 2.0, Join::G4), Knot::new((3.0, 3.0))]),
+        Contour::open([Knot::new((4.0, 4.0)), anchor(5.0, 5.0, (1.0, 0.0)), Knot::new((7.0, 7.0))]),
     ];
-    let back = [Contour::closed([
-        knot(8.0, 8.0, Join::G4),
-        knot(9.0, 9.0, Join::G4),
-    ])];
+    let back = [Contour::closed([knot(8.0, 8.0, Join::G4), knot(9.0, 9.0, Join::G4)])];
     let grid = [Contour::open([(-1000.0, 700.0), (2000.0, 700.0)])];
     let expected = Document {
         spline: SplineChoice::new("spiro"),
@@ -424,13 +410,7 @@ fn every_cut_is_an_error() {
 #[test]
 fn huge_files_are_read() {
     let points = with_points(&("    0.125 -350 c\n".repeat(1_000_000) + "    0 0 z\n"));
-    assert_eq!(
-        parse("sfd", points).unwrap().glyphs[0].contours[0]
-            .contour
-            .knots
-            .len(),
-        1_000_000
-    );
+    assert_eq!(parse("sfd", points).unwrap().glyphs[0].contours[0].contour.knots.len(), 1_000_000);
     // Many layers, many glyphs without an end, one endless line.
     let layers: String = (0..100_000)
         .map(|n| format!("Layer: {n}\nSplineSet\nSpiro\n0 0 v\n0 0 z\nEndSpiro\nEndSplineSet\n"))
@@ -438,13 +418,7 @@ fn huge_files_are_read() {
     let document = parse("sfd", format!("StartChar: a\n{layers}EndChar\n")).unwrap();
     assert_eq!(document.glyphs.len(), 100_000);
     assert!(parse("sfd", "StartChar: a\n".repeat(100_000)).is_err());
-    assert!(
-        parse(
-            "sfd",
-            "SplineFontDB: 3.0\n".to_owned() + &"x".repeat(10_000_000)
-        )
-        .is_err()
-    );
+    assert!(parse("sfd", "SplineFontDB: 3.0\n".to_owned() + &"x".repeat(10_000_000)).is_err());
 }
 
 proptest! {

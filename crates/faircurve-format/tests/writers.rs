@@ -5,10 +5,7 @@ use faircurve::{Contour, Join, Knot, Place, Relaxation, Solution, catalog, solve
 use faircurve_format::{Picture, Show, SolvedGlyph, path, solution_json, svg};
 use serde_json::Value;
 
-const EVERYTHING: Show = Show {
-    knots: true,
-    comb: true,
-};
+const EVERYTHING: Show = Show { knots: true, comb: true };
 
 fn solved(contour: &Contour) -> (String, Solution) {
     let spiro = catalog::spline("spiro").unwrap();
@@ -31,42 +28,21 @@ fn drop_shape(scale: f64) -> Contour {
 }
 
 fn wave() -> Contour {
-    Contour::open([
-        (0.0, 0.0),
-        (10.0, 5.0),
-        (20.0, 0.0),
-        (20.0, 0.0),
-        (30.0, 3.0),
-    ])
+    Contour::open([(0.0, 0.0), (10.0, 5.0), (20.0, 0.0), (20.0, 0.0), (30.0, 3.0)])
 }
 
 /// A glyph of which something is marked as relaxed.
 fn relaxed_glyph() -> SolvedGlyph {
     let (spline, mut solution) = solved(&drop_shape(1.0));
     solution.report.relaxed = vec![
-        Relaxation {
-            place: Place::Knot(2),
-            asked: "g4",
-            got: "g2",
-            reason: "a test".into(),
-        },
-        Relaxation {
-            place: Place::Segment(1),
-            asked: "spiro",
-            got: "euler",
-            reason: "too".into(),
-        },
+        Relaxation { place: Place::Knot(2), asked: "g4", got: "g2", reason: "a test".into() },
+        Relaxation { place: Place::Segment(1), asked: "spiro", got: "euler", reason: "too".into() },
     ];
     SolvedGlyph::new("a", "Fore", [(spline, solution)], None)
 }
 
 fn keys(value: &Value) -> Vec<&str> {
-    value
-        .as_object()
-        .unwrap()
-        .keys()
-        .map(String::as_str)
-        .collect()
+    value.as_object().unwrap().keys().map(String::as_str).collect()
 }
 
 /// Every number that JSON holds; panics on what isn't one where numbers belong.
@@ -119,9 +95,7 @@ fn the_solution_has_the_keys_of_the_contract_in_order() {
         "path",
     ] {
         let quoted = format!("\"{key}\":");
-        let at = rest
-            .find(&quoted)
-            .unwrap_or_else(|| panic!("{key} is missing or out of order"));
+        let at = rest.find(&quoted).unwrap_or_else(|| panic!("{key} is missing or out of order"));
         rest = &rest[at + quoted.len()..];
     }
     let file: Value = serde_json::from_str(&text).unwrap();
@@ -145,11 +119,7 @@ fn open_ends_are_null_and_zero_chords_keep_their_place() {
     assert_eq!((knots.len(), segments.len()), (5, 4));
     assert!(knots[0]["direction_in"].is_null() && knots[0]["curvature_in"].is_null());
     assert!(knots[4]["direction_out"].is_null() && knots[4]["curvature_out"].is_null());
-    assert!(
-        knots[1..4]
-            .iter()
-            .all(|knot| knot["direction_in"].is_number())
-    );
+    assert!(knots[1..4].iter().all(|knot| knot["direction_in"].is_number()));
     assert_eq!(segments[2]["length"], 0.0);
     assert!(segments[0].get("samples").is_none());
 }
@@ -160,9 +130,7 @@ fn samples_lie_on_the_curve_at_equal_steps() {
     let text = solution_json::write(std::slice::from_ref(&glyph), Some(7));
     let file: Value = serde_json::from_str(&text).unwrap();
     let curve = &glyph.contours[0].solution.curve;
-    let segments = file["glyphs"][0]["contours"][0]["segments"]
-        .as_array()
-        .unwrap();
+    let segments = file["glyphs"][0]["contours"][0]["segments"].as_array().unwrap();
     for (written, segment) in segments.iter().zip(curve.segments()) {
         let rows = written["samples"].as_array().unwrap();
         assert_eq!(rows.len(), 8);
@@ -170,10 +138,7 @@ fn samples_lie_on_the_curve_at_equal_steps() {
             let row = numbers(row);
             assert!((row[0] - segment.length() * i as f64 / 7.0).abs() < 1e-12 * segment.length());
             let at = segment.at(row[0]);
-            assert_eq!(
-                row[1..],
-                [at.point.x, at.point.y, at.direction, at.curvature]
-            );
+            assert_eq!(row[1..], [at.point.x, at.point.y, at.direction, at.curvature]);
         }
         let last = numbers(&rows[7]);
         assert_eq!((last[1], last[2]), (segment.end().x, segment.end().y));
@@ -187,12 +152,7 @@ fn numbers_read_back_as_the_same_doubles() {
     let file: Value = serde_json::from_str(&text).unwrap();
     let contour = &file["glyphs"][0]["contours"][0];
     let solution = &glyph.contours[0].solution;
-    for (written, knot) in contour["knots"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .zip(&solution.knots)
-    {
+    for (written, knot) in contour["knots"].as_array().unwrap().iter().zip(&solution.knots) {
         assert_eq!(written["x"].as_f64(), Some(knot.point.x));
         assert_eq!(written["curvature_in"].as_f64(), knot.curvature_in);
     }
@@ -209,11 +169,7 @@ fn paths_pass_through_every_knot_to_the_bit_and_close() {
     assert_eq!(lines.len(), 3);
     assert_eq!((lines[1], lines[2]), ("", ""));
     let read = BezPath::from_svg(lines[0]).unwrap();
-    let ends: Vec<Point> = read
-        .elements()
-        .iter()
-        .filter_map(PathEl::end_point)
-        .collect();
+    let ends: Vec<Point> = read.elements().iter().filter_map(PathEl::end_point).collect();
     for knot in contour.knots.iter().chain(&wave().knots) {
         assert!(ends.contains(&knot.point));
     }
@@ -277,11 +233,7 @@ mod png {
             let picture = Picture::new(&glyphs, show);
             let ours = pixels(&picture, 600);
             let theirs = drawn_svg(&picture, 600, ours.height());
-            let differences = ours
-                .data()
-                .iter()
-                .zip(theirs.data())
-                .map(|(a, b)| a.abs_diff(*b));
+            let differences = ours.data().iter().zip(theirs.data()).map(|(a, b)| a.abs_diff(*b));
             let total: f64 = differences.map(f64::from).sum();
             let mean = total / ours.data().len() as f64;
             assert!(mean < 0.2, "pixels differ by {mean} of 255 on average");
@@ -292,21 +244,12 @@ mod png {
 
     #[test]
     fn a_picture_is_the_same_at_every_scale() {
-        let at = |scale| {
-            pixels(
-                &Picture::new(&[glyph(&[drop_shape(scale)])], EVERYTHING),
-                300,
-            )
-        };
+        let at = |scale| pixels(&Picture::new(&[glyph(&[drop_shape(scale)])], EVERYTHING), 300);
         let one = at(1.0);
         for scale in [1e-80, 1e-6, 1e6, 1e80] {
             let other = at(scale);
             assert_eq!((one.width(), one.height()), (other.width(), other.height()));
-            let far = one
-                .data()
-                .iter()
-                .zip(other.data())
-                .filter(|(a, b)| a.abs_diff(**b) > 40);
+            let far = one.data().iter().zip(other.data()).filter(|(a, b)| a.abs_diff(**b) > 40);
             assert!(far.count() < one.data().len() / 500);
         }
     }

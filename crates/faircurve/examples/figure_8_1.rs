@@ -79,17 +79,13 @@ fn measure(evaluate: impl Fn([f64; 4]) -> Complex64) -> Point {
         count *= 2;
     }
     let least = (0..100).map(|_| batch(count)).min().unwrap_or_default();
-    Point {
-        nanoseconds: least.as_secs_f64() * 1e9 / f64::from(count),
-        error,
-    }
+    Point { nanoseconds: least.as_secs_f64() * 1e9 / f64::from(count), error }
 }
 
-const SHADES: [&str; 8] = [
-    "#a9c9e8", "#7fb2dd", "#5599d0", "#2f80bf", "#1b67a8", "#12508b", "#0c3a6b", "#06244a",
-];
+const SHADES: [&str; 8] =
+    ["#a9c9e8", "#7fb2dd", "#5599d0", "#2f80bf", "#1b67a8", "#12508b", "#0c3a6b", "#06244a"];
 const ACCENT: &str = "#c8371b";
-const WIDTH: f64 = 900.0;
+const WIDTH: f64 = 940.0;
 const HEIGHT: f64 = 560.0;
 const LEFT: f64 = 84.0;
 const RIGHT: f64 = 640.0;
@@ -106,12 +102,7 @@ struct Plot {
 
 impl Plot {
     fn new(x: [f64; 2], y: [f64; 2]) -> Self {
-        let mut plot = Plot {
-            x,
-            y,
-            svg: String::new(),
-            entries: 0,
-        };
+        let mut plot = Plot { x, y, svg: String::new(), entries: 0 };
         plot.push(format_args!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
              width=\"{WIDTH}\" height=\"{HEIGHT}\" font-family=\"sans-serif\" font-size=\"14\" \
@@ -121,7 +112,7 @@ impl Plot {
             LEFT,
             30.0,
             "start",
-            "Precision against time, spiro(1, 2, 3, 4)",
+            "Precision against time for spiro(1, 2, 3, 4); subdivisions double from point to point",
         );
         plot.grid();
         plot
@@ -145,12 +136,9 @@ impl Plot {
                  stroke=\"#ddd\"/>"
             )
         };
-        for (nanoseconds, label) in [
-            (10.0, "10 ns"),
-            (100.0, "100 ns"),
-            (1e3, "1 µs"),
-            (1e4, "10 µs"),
-        ] {
+        for (nanoseconds, label) in
+            [(10.0, "10 ns"), (100.0, "100 ns"), (1e3, "1 µs"), (1e4, "10 µs")]
+        {
             let x = self.place_x(nanoseconds);
             self.push(format_args!("{}", rule([x, TOP, x, BOTTOM])));
             self.text(x, BOTTOM + 20.0, "middle", label);
@@ -159,19 +147,10 @@ impl Plot {
             let y = self.place_y(10f64.powi(exponent));
             self.push(format_args!("{}", rule([LEFT, y, RIGHT, y])));
             let digits: String = exponent.to_string().chars().map(superscript).collect();
-            let label = if exponent == 0 {
-                "1".to_owned()
-            } else {
-                format!("10{digits}")
-            };
+            let label = if exponent == 0 { "1".to_owned() } else { format!("10{digits}") };
             self.text(LEFT - 10.0, y + 5.0, "end", &label);
         }
-        self.text(
-            (LEFT + RIGHT) / 2.0,
-            BOTTOM + 46.0,
-            "middle",
-            "time of one evaluation",
-        );
+        self.text((LEFT + RIGHT) / 2.0, BOTTOM + 46.0, "middle", "time of one evaluation");
         let middle = (TOP + BOTTOM) / 2.0;
         self.push(format_args!(
             "<text x=\"24\" y=\"{middle:.1}\" text-anchor=\"middle\" \
@@ -201,13 +180,7 @@ impl Plot {
     fn line(&mut self, name: &str, colour: &str, points: &[Point]) {
         let places: Vec<String> = points
             .iter()
-            .map(|p| {
-                format!(
-                    "{:.1},{:.1}",
-                    self.place_x(p.nanoseconds),
-                    self.place_y(p.error)
-                )
-            })
+            .map(|p| format!("{:.1},{:.1}", self.place_x(p.nanoseconds), self.place_y(p.error)))
             .collect();
         self.push(format_args!(
             "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.8\"/>",

@@ -16,20 +16,12 @@ pub struct Curve {
 impl Curve {
     /// A curve of these segments, each starting where the one before ends.
     pub fn new(segments: Vec<Segment>, closed: bool) -> Self {
-        Curve {
-            segments,
-            closed,
-            lone_point: None,
-        }
+        Curve { segments, closed, lone_point: None }
     }
 
     /// The curve of an open contour with one knot: a point.
     pub fn from_point(point: Point) -> Self {
-        Curve {
-            segments: Vec::new(),
-            closed: false,
-            lone_point: Some(point),
-        }
+        Curve { segments: Vec::new(), closed: false, lone_point: Some(point) }
     }
 
     /// The segments in order.
@@ -44,10 +36,7 @@ impl Curve {
 
     /// Where the curve starts.
     pub fn start(&self) -> Option<Point> {
-        self.segments
-            .first()
-            .map(Segment::start)
-            .or(self.lone_point)
+        self.segments.first().map(Segment::start).or(self.lone_point)
     }
 
     /// Arc length in user units.
@@ -73,11 +62,7 @@ impl Curve {
     pub fn bounding_box(&self) -> Option<Rect> {
         let start = self.start()?;
         let bounds = Rect::from_points(start, start);
-        Some(
-            self.segments
-                .iter()
-                .fold(bounds, |bounds, s| bounds.union(s.bounding_box())),
-        )
+        Some(self.segments.iter().fold(bounds, |bounds, s| bounds.union(s.bounding_box())))
     }
 
     /// The segment and arc length within it of the point nearest to `target`, and the distance,

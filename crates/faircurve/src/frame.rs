@@ -34,10 +34,7 @@ impl ChordAngles {
 
     /// The angles of a segment that starts and ends in these directions, unwrapped as given.
     pub fn from_directions(start: f64, chord: f64, end: f64) -> Self {
-        ChordAngles {
-            theta0: wrap_angle(chord - start),
-            theta1: wrap_angle(end - chord),
-        }
+        ChordAngles { theta0: wrap_angle(chord - start), theta1: wrap_angle(end - chord) }
     }
 
     /// The turning from start to end.
@@ -57,18 +54,12 @@ impl ChordAngles {
 
     /// The angles of the same segment travelled backwards.
     pub fn reversed(self) -> Self {
-        ChordAngles {
-            theta0: -self.theta1,
-            theta1: -self.theta0,
-        }
+        ChordAngles { theta0: -self.theta1, theta1: -self.theta0 }
     }
 
     /// The angles of the mirror image.
     pub fn mirrored(self) -> Self {
-        ChordAngles {
-            theta0: -self.theta0,
-            theta1: -self.theta1,
-        }
+        ChordAngles { theta0: -self.theta0, theta1: -self.theta1 }
     }
 }
 
@@ -88,10 +79,7 @@ pub struct EndCurvature {
 impl EndCurvature {
     /// A finite curvature of a segment that travels forwards.
     pub const fn finite(curvature: f64) -> Self {
-        EndCurvature {
-            num: curvature,
-            den: 1.0,
-        }
+        EndCurvature { num: curvature, den: 1.0 }
     }
 }
 
@@ -103,11 +91,7 @@ pub fn wrap_angle(angle: f64) -> f64 {
         return angle;
     }
     let wrapped = angle - TAU * (angle / TAU).round();
-    if wrapped <= -PI {
-        wrapped + TAU
-    } else {
-        wrapped
-    }
+    if wrapped <= -PI { wrapped + TAU } else { wrapped }
 }
 
 /// The direction of a vector in radians, in (−π, π].
@@ -154,20 +138,12 @@ mod tests {
 
     #[test]
     fn circle_tangents_are_perpendicular_to_the_radius() {
-        for (a, b, c) in [
-            (0.1, 0.9, 2.0),
-            (-1.0, 0.3, 0.4),
-            (0.0, 3.0, 6.0),
-            (5.0, 4.0, 1.0),
-        ] {
+        for (a, b, c) in [(0.1, 0.9, 2.0), (-1.0, 0.3, 0.4), (0.0, 3.0, 6.0), (5.0, 4.0, 1.0)] {
             let on_circle = |t: f64| Point::new(3.0 + t.cos(), 1.0 + t.sin());
             let tangent = circle_tangent(on_circle(a), on_circle(b), on_circle(c));
             let sense = if b > a { 1.0 } else { -1.0 };
             let expected = b + sense * PI / 2.0;
-            assert!(
-                wrap_angle(tangent - expected).abs() < 1e-14,
-                "{tangent} {expected}"
-            );
+            assert!(wrap_angle(tangent - expected).abs() < 1e-14, "{tangent} {expected}");
         }
     }
 

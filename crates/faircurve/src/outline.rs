@@ -29,14 +29,8 @@ pub enum Join {
 
 impl Join {
     /// Every join, weakest first.
-    pub const ALL: [Join; 6] = [
-        Join::Corner,
-        Join::G1,
-        Join::G2,
-        Join::G4,
-        Join::CurveToTerminal,
-        Join::TerminalToCurve,
-    ];
+    pub const ALL: [Join; 6] =
+        [Join::Corner, Join::G1, Join::G2, Join::G4, Join::CurveToTerminal, Join::TerminalToCurve];
 
     /// The name used in documents and messages, such as `curve-to-terminal`.
     pub const fn name(self) -> &'static str {
@@ -109,10 +103,7 @@ pub struct Knot {
 impl Knot {
     /// A knot of which only the place is given.
     pub fn new(point: impl Into<Point>) -> Self {
-        Knot {
-            point: point.into(),
-            ..Knot::default()
-        }
+        Knot { point: point.into(), ..Knot::default() }
     }
 
     /// Sets how the segments meet here.
@@ -189,27 +180,17 @@ pub struct Contour {
 impl Contour {
     /// An open contour through the given knots.
     pub fn open(knots: impl IntoIterator<Item = impl Into<Knot>>) -> Self {
-        Contour {
-            knots: knots.into_iter().map(Into::into).collect(),
-            closed: false,
-        }
+        Contour { knots: knots.into_iter().map(Into::into).collect(), closed: false }
     }
 
     /// A closed contour through the given knots.
     pub fn closed(knots: impl IntoIterator<Item = impl Into<Knot>>) -> Self {
-        Contour {
-            knots: knots.into_iter().map(Into::into).collect(),
-            closed: true,
-        }
+        Contour { knots: knots.into_iter().map(Into::into).collect(), closed: true }
     }
 
     /// The number of segments that a curve through this contour has.
     pub fn segment_count(&self) -> usize {
-        if self.closed {
-            self.knots.len()
-        } else {
-            self.knots.len().saturating_sub(1)
-        }
+        if self.closed { self.knots.len() } else { self.knots.len().saturating_sub(1) }
     }
 
     /// The same contour travelled the other way, starting from the last knot.

@@ -2,8 +2,7 @@
 //!
 //! In order: numbers are checked; each knot's join is resolved (the spline's default, and its own
 //! smooth join where it lacks the one asked); coincident neighbours become one knot; start and
-//! direction become canonical, so that the result can't depend on them; position and size are
-//! normalised; straight segments are found; and the rest is split at corners into [`Run`]s.
+//! direction become canonical, so that the result can't depend on them; size is normalised; straight segments are found; and the rest is split at corners into [`Run`]s.
 //! [`Plan::assemble`] puts the solved runs back together in the input's numbering.
 
 use std::fmt;
@@ -24,6 +23,8 @@ use crate::tolerance::{COINCIDENT, LARGEST_COORDINATE, SMALLEST_SIZE, STRAIGHT};
 pub struct RunKnot {
     /// Place, in the run's frame.
     pub point: Point,
+    /// Turning from the chord before to the chord after, in (−π, π]; 0 at the ends of an open run.
+    pub turn: f64,
     /// How the segments meet: [`Join::G2`], [`Join::G4`] or a one-way join. At the ends of an open
     /// run, what joins it to what lies beyond; [`Join::Corner`] at the contour's own ends.
     pub join: Join,
@@ -38,7 +39,7 @@ pub struct RunKnot {
 }
 
 /// A smooth stretch between corners: what a spline sees. Distinct neighbours, at least two knots
-/// when open and two when closed, coordinates at most 1.
+/// when open and two when closed; the whole contour spans at most 1 in x and y.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
     /// The knots in order.
@@ -50,11 +51,7 @@ pub struct Run {
 impl Run {
     /// The number of segments.
     pub fn segment_count(&self) -> usize {
-        if self.closed {
-            self.knots.len()
-        } else {
-            self.knots.len() - 1
-        }
+        if self.closed { self.knots.len() } else { self.knots.len() - 1 }
     }
 
     /// The chord vector of segment `index`.
@@ -63,23 +60,24 @@ impl Run {
         self.knots[next].point - self.knots[index].point
     }
 
-    /// The turning angle between the chords at knot `index`, in (−π, π]; 0 at open ends.
-    pub fn turning(&self, index: usize) -> f64 {
-        let n = self.knots.len();
-        if !self.closed && (index == 0 || index + 1 == n) {
-            return 0.0;
-        }
-        turning(self.chord((index + n - 1) % n), self.chord(index))
-    }
-
     /// The knots `from ..= to` as an open run of their own.
     pub fn stretch(&self, from: usize, to: usize) -> Run {
         let n = self.knots.len();
         let count = if to > from { to - from } else { to + n - from };
-        Run {
-            knots: (0..=count).map(|i| self.knots[(from + i) % n]).collect(),
-            closed: false,
+        let mut knots: Vec<RunKnot> = (0..=count).map(|i| self.knots[(from + i) % n]).collect();
+        (knots[0].turn, knots[count].turn) = (0.0, 0.0);
+        Run { knots, closed: false }
+    }
+
+    /// Fills in the turning angles.
+    fn measured(mut self) -> Self {
+        let n = self.knots.len();
+        for i in 0..n {
+            let inner = self.closed || (i > 0 && i + 1 < n);
+            let turn = || turning(self.chord((i + n - 1) % n), self.chord(i));
+            self.knots[i].turn = if inner { turn() } else { 0.0 };
         }
+        self
     }
 }
 
@@ -136,25 +134,16 @@ impl fmt::Display for InputError {
                 write!(f, "knot {knot} lies beyond {LARGEST_COORDINATE:e} units")
             }
             InputError::TooSmall => {
-                write!(
-                    f,
-                    "the whole contour is smaller than {SMALLEST_SIZE:e} units"
-                )
+                write!(f, "the whole contour is smaller than {SMALLEST_SIZE:e} units")
             }
             InputError::ZeroTangent { knot, what } => {
                 write!(f, "{what} of knot {knot} has no length, so no direction")
             }
             InputError::TangentsDiffer { knot, join } => {
-                write!(
-                    f,
-                    "knot {knot} joins {join}, yet its tangent_in and tangent_out differ"
-                )
+                write!(f, "knot {knot} joins {join}, yet its tangent_in and tangent_out differ")
             }
             InputError::CurvaturesDiffer { knot, join } => {
-                write!(
-                    f,
-                    "knot {knot} joins {join}, yet its curvature_in and curvature_out differ"
-                )
+                write!(f, "knot {knot} joins {join}, yet its curvature_in and curvature_out differ")
             }
         }
     }
@@ -271,11 +260,7 @@ impl Plan {
         } else {
             at.tangent_in.is_some() || at.curvature_in.is_some()
         };
-        let one_way = if outgoing {
-            Join::CurveToTerminal
-        } else {
-            Join::TerminalToCurve
-        };
+        let one_way = if outgoing { Join::CurveToTerminal } else { Join::TerminalToCurve };
         !given && (self.is_open_end(node) || at.join == Join::Corner || at.join == one_way)
     }
 
@@ -293,29 +278,17 @@ impl Plan {
     fn split_into_runs(&mut self, noise: f64) {
         let (n, segments) = (self.nodes.len(), self.node_segments());
         let splits = |node: usize| {
-            let before = if node == 0 {
-                segments.wrapping_sub(1)
-            } else {
-                node - 1
-            };
+            let before = if node == 0 { segments.wrapping_sub(1) } else { node - 1 };
             self.is_open_end(node)
                 || matches!(self.nodes[node].join, Join::Corner | Join::G1)
                 || self.straight.get(node) == Some(&true)
                 || self.straight.get(before) == Some(&true)
         };
-        let breaks: Vec<usize> = (0..n)
-            .filter(|&node| segments > 0 && splits(node))
-            .collect();
+        let breaks: Vec<usize> = (0..n).filter(|&node| segments > 0 && splits(node)).collect();
         let mut stretches: Vec<(usize, Run)> = Vec::new();
         if segments > 0 && breaks.is_empty() {
             let knots = (0..n).map(|node| self.interior_knot(node)).collect();
-            stretches.push((
-                0,
-                Run {
-                    knots,
-                    closed: true,
-                },
-            ));
+            stretches.push((0, Run { knots, closed: true }.measured()));
         }
         for (b, &from) in breaks.iter().enumerate() {
             let to = match breaks.get(b + 1) {
@@ -330,13 +303,7 @@ impl Plan {
             let mut knots = vec![self.end_knot(from, true)];
             knots.extend((1..count).map(|i| self.interior_knot((from + i) % n)));
             knots.push(self.end_knot(to, false));
-            stretches.push((
-                from,
-                Run {
-                    knots,
-                    closed: false,
-                },
-            ));
+            stretches.push((from, Run { knots, closed: false }.measured()));
         }
         for (first_node, run) in stretches {
             if is_straight(&run, noise) {
@@ -347,10 +314,7 @@ impl Plan {
             }
             let (run, first_node, reversed) = canonical(run, first_node, n);
             self.runs.push(run);
-            self.places.push(RunPlace {
-                first_node,
-                reversed,
-            });
+            self.places.push(RunPlace { first_node, reversed });
         }
     }
 
@@ -358,6 +322,7 @@ impl Plan {
         let at = &self.nodes[node];
         RunKnot {
             point: at.point,
+            turn: 0.0,
             join: at.join,
             tangent: at.tangent_in,
             curvature: at.curvature_in,
@@ -376,11 +341,7 @@ impl Plan {
         } else {
             (at.tangent_in, at.curvature_in)
         };
-        let beyond = if outgoing {
-            (node + segments - 1) % segments
-        } else {
-            node
-        };
+        let beyond = if outgoing { (node + segments - 1) % segments } else { node };
         if !self.is_open_end(node) && at.join != Join::Corner && self.straight[beyond] {
             let line = self.nodes[(beyond + 1) % n].point - self.nodes[beyond].point;
             tangent = Some(direction(line));
@@ -388,17 +349,8 @@ impl Plan {
                 curvature = Some(0.0);
             }
         }
-        let join = if self.is_open_end(node) {
-            Join::Corner
-        } else {
-            at.join
-        };
-        RunKnot {
-            join,
-            tangent,
-            curvature,
-            ..self.interior_knot(node)
-        }
+        let join = if self.is_open_end(node) { Join::Corner } else { at.join };
+        RunKnot { join, tangent, curvature, ..self.interior_knot(node) }
     }
 
     /// Puts solved runs back together, in the input's numbering and units.
@@ -408,10 +360,7 @@ impl Plan {
     /// each chord; missing ones are drawn straight.
     pub fn assemble(&self, solved: Vec<RunSolution>) -> Solution {
         let (n, segments) = (self.nodes.len(), self.node_segments());
-        let mut report = SolveReport {
-            adapted: self.adapted.clone(),
-            ..SolveReport::default()
-        };
+        let mut report = SolveReport { adapted: self.adapted.clone(), ..SolveReport::default() };
         let mut shapes: Vec<Option<Segment>> = vec![None; segments];
         for ((place, run), solution) in self.places.iter().zip(&self.runs).zip(solved) {
             let (knots, count) = (run.knots.len(), run.segment_count());
@@ -430,29 +379,30 @@ impl Plan {
                 (place.first_node + along) % n
             };
             for (i, segment) in solution.segments.iter().enumerate().take(count) {
-                let segment = if place.reversed {
-                    segment.reversed()
-                } else {
-                    *segment
-                };
+                let segment = if place.reversed { segment.reversed() } else { *segment };
                 shapes[segment_of(i)] = Some(segment);
             }
             let input_place = |place: Place| match place {
                 Place::Knot(i) => Place::Knot(self.nodes[node_of(i)].first),
                 Place::Segment(i) => Place::Segment(self.nodes[segment_of(i)].last),
             };
-            report
-                .relaxed
-                .extend(solution.relaxed.into_iter().map(|r| Relaxation {
-                    place: input_place(r.place),
-                    ..r
-                }));
-            report
-                .adapted
-                .extend(solution.adapted.into_iter().map(|a| Adaptation {
-                    place: input_place(a.place),
-                    ..a
-                }));
+            // What looks forward to the run looks backward in the contour.
+            let input_join = |name: &'static str| match Join::from_name(name) {
+                Some(join) if place.reversed => join.reversed().name(),
+                _ => name,
+            };
+            report.relaxed.extend(solution.relaxed.into_iter().map(|r| Relaxation {
+                place: input_place(r.place),
+                asked: input_join(r.asked),
+                got: input_join(r.got),
+                ..r
+            }));
+            report.adapted.extend(
+                solution
+                    .adapted
+                    .into_iter()
+                    .map(|a| Adaptation { place: input_place(a.place), ..a }),
+            );
             report.iterations = report.iterations.max(solution.iterations);
             report.residual = report.residual.max(solution.residual);
         }
@@ -465,11 +415,7 @@ impl Plan {
         } else {
             Curve::new(placed, self.closed)
         };
-        Solution {
-            curve,
-            knots,
-            report,
-        }
+        Solution { curve, knots, report }
     }
 
     /// The shapes of the node segments, placed between the input's own points, with segments of
@@ -483,7 +429,7 @@ impl Plan {
             let i = self.nodes[segment].last;
             let (start, end) = ends(i);
             placed[i] = Some(match shape {
-                Some(shape) if !shape.is_line() => shape.replaced(start, end, 0.0),
+                Some(shape) if !shape.is_line() => shape.moved_to(start, end),
                 _ => Segment::line(start, end),
             });
         }
@@ -514,10 +460,7 @@ impl Plan {
             };
             let leaving = segments.get(node.last);
             let place = Place::Knot(node.first);
-            let relaxed = report
-                .relaxed
-                .binary_search_by_key(&place, |r| r.place)
-                .ok();
+            let relaxed = report.relaxed.binary_search_by_key(&place, |r| r.place).ok();
             let got = relaxed.and_then(|i| Join::from_name(report.relaxed[i].got));
             let join = got.unwrap_or(node.join);
             let solved = SolvedKnot {
@@ -531,13 +474,7 @@ impl Plan {
             let members = (node.last + count - node.first) % count;
             for i in 0..=members {
                 let index = (node.first + i) % count;
-                knots.push((
-                    index,
-                    SolvedKnot {
-                        point: self.points[index],
-                        ..solved
-                    },
-                ));
+                knots.push((index, SolvedKnot { point: self.points[index], ..solved }));
             }
         }
         knots.sort_by_key(|(index, _)| *index);
@@ -560,19 +497,16 @@ fn check(contour: &Contour) -> Result<(), InputError> {
             ("tension_out", knot.tension_out),
             ("curl", knot.curl),
         ];
-        if let Some((what, _)) = numbers
-            .iter()
-            .find(|(_, value)| value.is_some_and(|value| !value.is_finite()))
+        if let Some((what, _)) =
+            numbers.iter().find(|(_, value)| value.is_some_and(|value| !value.is_finite()))
         {
             return Err(InputError::NotFinite { knot: index, what });
         }
         if knot.point.x.abs().max(knot.point.y.abs()) > LARGEST_COORDINATE {
             return Err(InputError::TooLarge { knot: index });
         }
-        for (what, tangent) in [
-            ("tangent_in", knot.tangent_in),
-            ("tangent_out", knot.tangent_out),
-        ] {
+        for (what, tangent) in [("tangent_in", knot.tangent_in), ("tangent_out", knot.tangent_out)]
+        {
             match tangent {
                 Some(tangent) if !tangent.is_finite() => {
                     return Err(InputError::NotFinite { knot: index, what });
@@ -599,11 +533,7 @@ fn resolve_joins(contour: &Contour, spline: &dyn Spline) -> (Vec<Join>, Vec<Adap
             let is_end = !contour.closed && (index == 0 || index == last);
             if got != asked && !is_end {
                 let (asked, got) = (asked.name(), got.name());
-                adapted.push(Adaptation {
-                    place: Place::Knot(index),
-                    asked,
-                    got,
-                });
+                adapted.push(Adaptation { place: Place::Knot(index), asked, got });
             }
             got
         })
@@ -611,10 +541,9 @@ fn resolve_joins(contour: &Contour, spline: &dyn Spline) -> (Vec<Join>, Vec<Adap
     (joins, adapted)
 }
 
-/// Translation and scale that bring a contour to unit size about the origin. The scale is a power
-/// of two, so that it adds no rounding.
+/// The scale that brings a contour to unit size. A power of two, so that it adds no rounding; and
+/// no translation, which would round away what distinguishes close neighbours.
 struct NormalFrame {
-    centre: Point,
     scale: f64,
     /// Coordinates of the input are known to this, in normal units.
     coordinate_noise: f64,
@@ -634,20 +563,12 @@ impl NormalFrame {
         if size > 0.0 && size < SMALLEST_SIZE {
             return Err(InputError::TooSmall);
         }
-        let scale = if size > 0.0 {
-            (-size.log2().ceil()).exp2()
-        } else {
-            1.0
-        };
-        Ok(NormalFrame {
-            centre: low.midpoint(high),
-            scale,
-            coordinate_noise: largest * scale * COINCIDENT,
-        })
+        let scale = if size > 0.0 { (-size.log2().ceil()).exp2() } else { 1.0 };
+        Ok(NormalFrame { scale, coordinate_noise: largest * scale * COINCIDENT })
     }
 
     fn point(&self, p: Point) -> Point {
-        ((p - self.centre) * self.scale).to_point()
+        (p.to_vec2() * self.scale).to_point()
     }
 }
 
@@ -661,11 +582,7 @@ fn merge_coincident(contour: &Contour, joins: &[Join], frame: &NormalFrame) -> V
     let mut nodes: Vec<Node> = Vec::with_capacity(count);
     for (i, knot) in knots.iter().enumerate() {
         let last_of = |knot: &Knot| {
-            (
-                angle(knot.tangent_out),
-                knot.curvature_out.map(|k| k / frame.scale),
-                knot.tension_out,
-            )
+            (angle(knot.tangent_out), knot.curvature_out.map(|k| k / frame.scale), knot.tension_out)
         };
         let (tangent_out, curvature_out, tension_out) = last_of(knot);
         match nodes.last_mut() {
@@ -736,10 +653,7 @@ fn settle_given(
         if let (Some(a), Some(b)) = (node.tangent_in, node.tangent_out)
             && wrap_angle(a - b).abs() > SAME_DIRECTION
         {
-            return Err(InputError::TangentsDiffer {
-                knot: node.first,
-                join,
-            });
+            return Err(InputError::TangentsDiffer { knot: node.first, join });
         }
         node.tangent_in = node.tangent_in.or(node.tangent_out);
         node.tangent_out = node.tangent_in;
@@ -747,26 +661,18 @@ fn settle_given(
             node.join = Join::G1;
             if contour.knots[node.first].join.is_some() {
                 let place = Place::Knot(node.first);
-                adapted.push(Adaptation {
-                    place,
-                    asked: join.name(),
-                    got: Join::G1.name(),
-                });
+                adapted.push(Adaptation { place, asked: join.name(), got: Join::G1.name() });
             }
         }
         if node.join == Join::G1 {
-            let tangent = node
-                .tangent_in
-                .unwrap_or_else(|| circle_tangent(before, node.point, after));
+            let tangent =
+                node.tangent_in.unwrap_or_else(|| circle_tangent(before, node.point, after));
             (node.tangent_in, node.tangent_out) = (Some(tangent), Some(tangent));
         } else {
             if let (Some(a), Some(b)) = (node.curvature_in, node.curvature_out)
                 && a != b
             {
-                return Err(InputError::CurvaturesDiffer {
-                    knot: node.first,
-                    join,
-                });
+                return Err(InputError::CurvaturesDiffer { knot: node.first, join });
             }
             node.curvature_in = node.curvature_in.or(node.curvature_out);
             node.curvature_out = node.curvature_in;
@@ -786,16 +692,10 @@ fn is_straight(run: &Run, noise: f64) -> bool {
     let aligned = |knot: &RunKnot, segment: usize| {
         let off = |tangent: f64| wrap_angle(tangent - direction(run.chord(segment))).abs();
         knot.curvature.unwrap_or(0.0) == 0.0
-            && knot
-                .tangent
-                .is_none_or(|tangent| off(tangent) <= 2.0 * chord_noise(segment))
+            && knot.tangent.is_none_or(|tangent| off(tangent) <= 2.0 * chord_noise(segment))
     };
-    (1..count).all(|i| run.turning(i).abs() <= chord_noise(i - 1) + chord_noise(i))
-        && run
-            .knots
-            .iter()
-            .enumerate()
-            .all(|(i, knot)| aligned(knot, i.min(count - 1)))
+    (1..count).all(|i| run.knots[i].turn.abs() <= chord_noise(i - 1) + chord_noise(i))
+        && run.knots.iter().enumerate().all(|(i, knot)| aligned(knot, i.min(count - 1)))
 }
 
 /// The same run with a start and direction that depend neither on the input's start and direction
@@ -806,12 +706,7 @@ fn canonical(run: Run, first_node: usize, nodes: usize) -> (Run, usize, bool) {
     let n = run.knots.len();
     let forward = marks(&run);
     let backwards = Run {
-        knots: run
-            .knots
-            .iter()
-            .rev()
-            .map(|knot| reversed_knot(*knot))
-            .collect(),
+        knots: run.knots.iter().rev().map(|knot| reversed_knot(*knot)).collect(),
         closed: run.closed,
     };
     let backward = marks(&backwards);
@@ -821,23 +716,15 @@ fn canonical(run: Run, first_node: usize, nodes: usize) -> (Run, usize, bool) {
             // A symmetric run has several such starts; any will do, so long as it is the same one.
             let (start, period) = least_rotation(marks);
             let place = |i: usize| run.knots[i % n].point;
-            (0..n / period)
-                .map(|i| (start + i * period) % n)
-                .fold(start, |best, i| {
-                    if (place(i).x, place(i).y) < (place(best).x, place(best).y) {
-                        i
-                    } else {
-                        best
-                    }
-                })
+            (0..n / period).map(|i| (start + i * period) % n).fold(start, |best, i| {
+                if (place(i).x, place(i).y) < (place(best).x, place(best).y) { i } else { best }
+            })
         }
     };
     let (a, b) = (start_of(&run, &forward), start_of(&backwards, &backward));
     let written = |marks: &[Mark], start: usize| [&marks[start..], &marks[..start]].concat();
     let points = |run: &Run, start: usize| -> Vec<(f64, f64)> {
-        (0..n)
-            .map(|i| run.knots[(start + i) % n].point.into())
-            .collect()
+        (0..n).map(|i| run.knots[(start + i) % n].point.into()).collect()
     };
     let order = written(&forward, a).cmp(&written(&backward, b));
     let keep = order.is_lt() || order.is_eq() && points(&run, a) <= points(&backwards, b);
@@ -845,14 +732,7 @@ fn canonical(run: Run, first_node: usize, nodes: usize) -> (Run, usize, bool) {
     let knots = (0..n).map(|i| chosen.knots[(start + i) % n]).collect();
     // Knot b of the reversed list is knot n − 1 − b; the walk ends at the one after it.
     let first = if keep { a } else { (n - b) % n };
-    (
-        Run {
-            knots,
-            closed: run.closed,
-        },
-        (first_node + first) % nodes,
-        !keep,
-    )
+    (Run { knots, closed: run.closed }, (first_node + first) % nodes, !keep)
 }
 
 /// What a knot looks like to someone who travels the run: its join, its turning angle without sign,
@@ -864,17 +744,11 @@ fn marks(run: &Run) -> Vec<Mark> {
     /// Alike to a billionth of a radian or of the run's size.
     const FINENESS: f64 = 1e9;
     let n = run.knots.len();
-    let size = (0..run.segment_count())
-        .map(|i| run.chord(i).hypot())
-        .fold(0.0, f64::max);
+    let size = (0..run.segment_count()).map(|i| run.chord(i).hypot()).fold(0.0, f64::max);
     (0..n)
         .map(|i| {
-            let chord = if i < run.segment_count() {
-                run.chord(i).hypot() / size
-            } else {
-                0.0
-            };
-            let turn = run.turning(i).abs();
+            let chord = if i < run.segment_count() { run.chord(i).hypot() / size } else { 0.0 };
+            let turn = run.knots[i].turn.abs();
             let coarse = |number: f64| (number * FINENESS).round() as i64;
             (run.knots[i].join, coarse(turn), coarse(chord))
         })
@@ -906,6 +780,7 @@ fn least_rotation<T: Ord>(list: &[T]) -> (usize, usize) {
 
 fn reversed_knot(knot: RunKnot) -> RunKnot {
     RunKnot {
+        turn: if knot.turn == std::f64::consts::PI { knot.turn } else { -knot.turn },
         join: knot.join.reversed(),
         tangent: knot.tangent.map(|t| wrap_angle(t + std::f64::consts::PI)),
         curvature: knot.curvature.map(|k| -k),

@@ -39,27 +39,19 @@ impl PolynomialSpiral {
     /// Its chord, to the accuracy of [`spiro_integral`].
     pub fn chord(&self) -> SpiralChord {
         let chord = spiro_integral(self.k);
-        SpiralChord {
-            length: chord.norm_sqr().sqrt(),
-            direction: chord.arg(),
-        }
+        SpiralChord { length: chord.norm_sqr().sqrt(), direction: chord.arg() }
     }
 
     /// The end tangents relative to the chord (eq. 8.19–8.20), not wrapped: their sum is the whole
     /// turning, windings included.
     pub fn chord_angles(&self) -> ChordAngles {
         let psi = self.chord().direction;
-        ChordAngles {
-            theta0: psi - angle(self.k, -0.5),
-            theta1: angle(self.k, 0.5) - psi,
-        }
+        ChordAngles { theta0: psi - angle(self.k, -0.5), theta1: angle(self.k, 0.5) - psi }
     }
 
     /// The piece between two places s ∈ [−½, ½], itself scaled to arc length 1 (eq. 8.3).
     pub fn piece(&self, from: f64, to: f64) -> Self {
-        PolynomialSpiral {
-            k: sub_parameters(self.k, (from + to) / 2.0, to - from),
-        }
+        PolynomialSpiral { k: sub_parameters(self.k, (from + to) / 2.0, to - from) }
     }
 }
 
@@ -103,11 +95,7 @@ impl Segment {
     /// [`line_with_direction`](Self::line_with_direction).
     pub fn line(start: Point, end: Point) -> Self {
         let chord = end - start;
-        let direction = if chord == Vec2::ZERO {
-            0.0
-        } else {
-            direction(chord)
-        };
+        let direction = if chord == Vec2::ZERO { 0.0 } else { direction(chord) };
         Segment::line_with_direction(start, end, direction)
     }
 
@@ -273,24 +261,22 @@ impl Segment {
         }
     }
 
-    /// The same shape placed between other points (which must span a chord of the same length and
-    /// direction, up to a common similarity). Lines of length 0 keep `direction`.
-    pub(crate) fn replaced(&self, start: Point, end: Point, direction: f64) -> Segment {
+    /// The same segment with its ends at other points, which must span a chord of the same direction
+    /// up to rounding: what scaling by a power of two does, or giving a merged knot its own place.
+    pub(crate) fn moved_to(&self, start: Point, end: Point) -> Segment {
         match self.shape {
-            Shape::Line if start == end => Segment::line_with_direction(start, end, direction),
             Shape::Line => Segment::line(start, end),
-            Shape::Spiral(spiral) => Segment::spiral(start, end, spiral),
+            Shape::Spiral(_) => {
+                let scale = (end - start).hypot() / self.chord_length();
+                Segment { start, end, length: self.length * scale, ..*self }
+            }
         }
     }
 
     /// Arc lengths at which curvature is zero (inflections), ascending; none on a line.
     pub fn inflections(&self) -> Vec<f64> {
         let k = self.kappa();
-        self.places_from_local(&roots_between(
-            &[k[0], k[1], k[2] / 2.0, k[3] / 6.0],
-            -0.5,
-            0.5,
-        ))
+        self.places_from_local(&roots_between(&[k[0], k[1], k[2] / 2.0, k[3] / 6.0], -0.5, 0.5))
     }
 
     /// Arc lengths inside the segment at which |curvature| has an extremum or κ′ = 0, ascending.
@@ -308,11 +294,7 @@ impl Segment {
         let direction = |s: f64| self.middle_direction + angle(k, s);
         let mut places = Vec::new();
         let mut breaks = vec![-0.5];
-        breaks.extend(roots_between(
-            &[k[0], k[1], k[2] / 2.0, k[3] / 6.0],
-            -0.5,
-            0.5,
-        ));
+        breaks.extend(roots_between(&[k[0], k[1], k[2] / 2.0, k[3] / 6.0], -0.5, 0.5));
         breaks.push(0.5);
         for pair in breaks.windows(2) {
             // Direction is monotone here; visit each quarter turn that it passes.
@@ -411,18 +393,11 @@ impl Segment {
 
     /// s ∈ [−½, ½] for an arc length.
     fn local(&self, s: f64) -> f64 {
-        if self.length == 0.0 {
-            0.0
-        } else {
-            s / self.length - 0.5
-        }
+        if self.length == 0.0 { 0.0 } else { s / self.length - 0.5 }
     }
 
     fn places_from_local(&self, local: &[f64]) -> Vec<f64> {
-        local
-            .iter()
-            .map(|s| ((s + 0.5) * self.length).clamp(0.0, self.length))
-            .collect()
+        local.iter().map(|s| ((s + 0.5) * self.length).clamp(0.0, self.length)).collect()
     }
 
     /// A vector of the unit-length middle frame, scaled and turned into place.
@@ -436,11 +411,8 @@ impl Segment {
 fn nearest_on_chord(target: Point, start: Point, end: Point) -> (f64, f64) {
     let chord = end - start;
     let squared = chord.hypot2();
-    let along = if squared > 0.0 {
-        ((target - start).dot(chord) / squared).clamp(0.0, 1.0)
-    } else {
-        0.5
-    };
+    let along =
+        if squared > 0.0 { ((target - start).dot(chord) / squared).clamp(0.0, 1.0) } else { 0.5 };
     (along, (start + chord * along - target).hypot())
 }
 
@@ -525,13 +497,7 @@ mod tests {
     #[test]
     fn nearest_points_are_no_farther_than_any_sample() {
         let segment = sample();
-        for target in [
-            (0.0, 0.0),
-            (20.0, 5.0),
-            (45.0, 30.0),
-            (18.0, 20.0),
-            (-50.0, 90.0),
-        ] {
+        for target in [(0.0, 0.0), (20.0, 5.0), (45.0, 30.0), (18.0, 20.0), (-50.0, 90.0)] {
             let target = Point::from(target);
             let (s, distance) = segment.nearest(target, 1e-9);
             assert!(((segment.point(s) - target).hypot() - distance).abs() < 1e-12);

@@ -123,11 +123,7 @@ pub struct SolveReport {
 impl SolveReport {
     /// Whether all that was asked holds.
     pub fn status(&self) -> Status {
-        if self.relaxed.is_empty() {
-            Status::Solved
-        } else {
-            Status::Relaxed
-        }
+        if self.relaxed.is_empty() { Status::Solved } else { Status::Relaxed }
     }
 }
 
@@ -179,10 +175,6 @@ pub struct Solution {
 /// ```
 pub fn solve(contour: &Contour, spline: &dyn Spline) -> Result<Solution, InputError> {
     let plan = Plan::new(contour, spline)?;
-    let runs = plan
-        .runs()
-        .iter()
-        .map(|run| spline.solve_run(run))
-        .collect();
+    let runs = plan.runs().iter().map(|run| spline.solve_run(run)).collect();
     Ok(plan.assemble(runs))
 }

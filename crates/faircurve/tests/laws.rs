@@ -20,11 +20,7 @@ fn solved(contour: &Contour, spline: &dyn Spline) -> Solution {
 
 fn size(contour: &Contour) -> f64 {
     let first = contour.knots[0].point;
-    contour
-        .knots
-        .iter()
-        .map(|knot| (knot.point - first).hypot())
-        .fold(1e-300, f64::max)
+    contour.knots.iter().map(|knot| (knot.point - first).hypot()).fold(1e-300, f64::max)
 }
 
 /// Points along the curve: five to a segment.
@@ -32,19 +28,13 @@ fn trace(solution: &Solution) -> Vec<Point> {
     let along =
         |segment: &faircurve::Segment, i: i32| segment.point(segment.length() * f64::from(i) / 4.0);
     let segments = solution.curve.segments();
-    segments
-        .iter()
-        .flat_map(|segment| (0..=4).map(move |i| along(segment, i)))
-        .collect()
+    segments.iter().flat_map(|segment| (0..=4).map(move |i| along(segment, i))).collect()
 }
 
 /// Largest distance between two traces.
 fn distance(a: &[Point], b: &[Point]) -> f64 {
     assert_eq!(a.len(), b.len());
-    a.iter()
-        .zip(b)
-        .map(|(a, b)| (*a - *b).hypot())
-        .fold(0.0, f64::max)
+    a.iter().zip(b).map(|(a, b)| (*a - *b).hypot()).fold(0.0, f64::max)
 }
 
 fn transformed(contour: &Contour, map: Affine) -> Contour {
@@ -59,10 +49,7 @@ fn transformed(contour: &Contour, map: Affine) -> Contour {
         curvature_out: knot.curvature_out.map(|k| k * mirror / scale),
         ..knot.clone()
     });
-    Contour {
-        knots: knots.collect(),
-        closed: contour.closed,
-    }
+    Contour { knots: knots.collect(), closed: contour.closed }
 }
 
 /// Drawings such as people make: chords that differ up to threefold, turns of up to about 60°, all
@@ -112,20 +99,12 @@ fn contours_turning(most: f64) -> impl Strategy<Value = Contour> {
 
 /// Anything at all: coordinates on a small grid, so that knots coincide, turn back and line up.
 fn hostile_contours() -> impl Strategy<Value = Contour> {
-    let knot = (
-        -3..4i32,
-        -3..4i32,
-        0..6usize,
-        prop_oneof![Just(1.0), Just(1e-7), Just(1e5)],
-    );
+    let knot = (-3..4i32, -3..4i32, 0..6usize, prop_oneof![Just(1.0), Just(1e-7), Just(1e5)]);
     (proptest::collection::vec(knot, 1..9), any::<bool>()).prop_map(|(knots, closed)| {
         let knots = knots.into_iter().map(|(x, y, join, scale)| {
             Knot::new((f64::from(x) * scale, f64::from(y) * scale)).join(Join::ALL[join])
         });
-        Contour {
-            knots: knots.collect(),
-            closed,
-        }
+        Contour { knots: knots.collect(), closed }
     })
 }
 
@@ -271,17 +250,9 @@ fn round_splines_draw_the_circle_through_points_on_a_circle() {
             return;
         }
         for closed in [false, true] {
-            for places in [
-                [0.0, 1.0, 2.5],
-                [0.0, 2.0, 4.0],
-                [0.0, 0.3, 0.6],
-                [-2.0, -1.0, 0.5],
-            ] {
+            for places in [[0.0, 1.0, 2.5], [0.0, 2.0, 4.0], [0.0, 0.3, 0.6], [-2.0, -1.0, 0.5]] {
                 let on_circle = |t: f64| Point::new(30.0 + 200.0 * t.cos(), 200.0 * t.sin());
-                let contour = Contour {
-                    closed,
-                    ..Contour::open(places.map(on_circle))
-                };
+                let contour = Contour { closed, ..Contour::open(places.map(on_circle)) };
                 let solution = solved(&contour, spline);
                 assert_eq!(solution.report.status(), Status::Solved);
                 for point in trace(&solution) {
@@ -303,11 +274,7 @@ fn two_points_of_a_closed_contour_span_a_circle() {
         if info.claims.contains(&Claim::Round) {
             let solution = solved(&Contour::closed([(0.0, 0.0), (2.0, 0.0)]), spline);
             let circumference = std::f64::consts::TAU;
-            assert!(
-                (solution.curve.length() - circumference).abs() < 1e-12,
-                "{}",
-                info.name
-            );
+            assert!((solution.curve.length() - circumference).abs() < 1e-12, "{}", info.name);
         }
     });
 }
@@ -317,13 +284,7 @@ fn straight_runs_are_exactly_straight() {
     each_spline(|_, spline| {
         let points = (0..20).map(|i| (f64::from(i * i) * 0.37, f64::from(i * i) * 0.91 - 5.0));
         let solution = solved(&Contour::open(points), spline);
-        assert!(
-            solution
-                .curve
-                .segments()
-                .iter()
-                .all(faircurve::Segment::is_line)
-        );
+        assert!(solution.curve.segments().iter().all(faircurve::Segment::is_line));
         assert_eq!(solution.report.residual, 0.0);
         let two = solved(&Contour::open([(0.0, 0.0), (3.0, 4.0)]), spline);
         assert_eq!(two.curve.length(), 5.0);
@@ -336,13 +297,8 @@ fn monotone_curvature_where_claimed() {
         if !info.claims.contains(&Claim::MonotoneCurvature) {
             return;
         }
-        let contour = Contour::open([
-            (0.0, 0.0),
-            (80.0, 60.0),
-            (150.0, 0.0),
-            (260.0, 30.0),
-            (270.0, 150.0),
-        ]);
+        let contour =
+            Contour::open([(0.0, 0.0), (80.0, 60.0), (150.0, 0.0), (260.0, 30.0), (270.0, 150.0)]);
         for segment in solved(&contour, spline).curve.segments() {
             assert!(segment.curvature_extrema().is_empty(), "{}", info.name);
         }
@@ -351,10 +307,7 @@ fn monotone_curvature_where_claimed() {
 
 #[test]
 fn all_g2_polynomial_spirals_are_the_euler_spline() {
-    let (euler, spiro) = (
-        catalog::spline("euler").unwrap(),
-        catalog::spline("spiro").unwrap(),
-    );
+    let (euler, spiro) = (catalog::spline("euler").unwrap(), catalog::spline("spiro").unwrap());
     let mut runner = proptest::test_runner::TestRunner::deterministic();
     runner
         .run(&contours(), |contour| {
@@ -376,17 +329,11 @@ fn all_g2_polynomial_spirals_are_the_euler_spline() {
 fn degenerate_contours_have_their_answers() {
     each_spline(|_, spline| {
         for closed in [false, true] {
-            let one = Contour {
-                closed,
-                ..Contour::open([(1.0, 2.0)])
-            };
+            let one = Contour { closed, ..Contour::open([(1.0, 2.0)]) };
             let solution = solved(&one, spline);
             assert_eq!(solution.curve.length(), 0.0);
             assert_eq!(solution.curve.start(), Some(Point::new(1.0, 2.0)));
-            let same = Contour {
-                closed,
-                ..Contour::open([(1.0, 2.0); 5])
-            };
+            let same = Contour { closed, ..Contour::open([(1.0, 2.0); 5]) };
             assert_eq!(solved(&same, spline).curve.length(), 0.0);
         }
         assert!(solve(&Contour::default(), spline).is_err());

@@ -9,9 +9,7 @@ use faircurve::{Contour, Join, Knot, PolynomialSpiral, Solution, catalog, solve}
 use serde_json::Value;
 
 fn load(name: &str) -> Value {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/reference")
-        .join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference").join(name);
     let text = std::fs::read_to_string(&path).expect("the reference file is in the repository");
     serde_json::from_str(&text).expect("the reference file is JSON")
 }
@@ -68,19 +66,10 @@ fn euler_fit_over_the_whole_square() {
         ] {
             let spiral = fit_euler(angles).unwrap_or_else(|| panic!("no spiral for {angles:?}"));
             let [ours_0, ours_1, ..] = spiral.k;
-            assert!(
-                (ours_0 - k0).abs() <= 1e-15 * (1.0 + k0.abs()),
-                "{angles:?}: k0 {ours_0}"
-            );
+            assert!((ours_0 - k0).abs() <= 1e-15 * (1.0 + k0.abs()), "{angles:?}: k0 {ours_0}");
             let error = (ours_1 - k1).abs();
-            assert!(
-                error <= 1e-13 * (1.0 + k1.abs()),
-                "{angles:?}: k1 {ours_1} off by {error:e}"
-            );
-            assert!(
-                (spiral.chord().length - chord_over_arc).abs() <= 1e-14,
-                "{angles:?}"
-            );
+            assert!(error <= 1e-13 * (1.0 + k1.abs()), "{angles:?}: k1 {ours_1} off by {error:e}");
+            assert!((spiral.chord().length - chord_over_arc).abs() <= 1e-14, "{angles:?}");
         }
     }
 }
@@ -92,37 +81,19 @@ fn contour(set: &Value, joins: impl Iterator<Item = Join>) -> Contour {
         .zip(joins)
         .map(|(knot, join)| knot.join(join))
         .collect();
-    if set["closed"] == true {
-        Contour::closed(knots)
-    } else {
-        Contour::open(knots)
-    }
+    if set["closed"] == true { Contour::closed(knots) } else { Contour::open(knots) }
 }
 
 /// Solved as asked, in the directions of the file.
 fn assert_tangents(name: &str, solution: &Solution, set: &Value, uncertainty: f64) {
-    assert!(
-        solution.report.relaxed.is_empty(),
-        "{name}: {:?}",
-        solution.report.relaxed
-    );
-    assert!(
-        solution.report.residual < 1e-9,
-        "{name}: {:e}",
-        solution.report.residual
-    );
+    assert!(solution.report.relaxed.is_empty(), "{name}: {:?}", solution.report.relaxed);
+    assert!(solution.report.residual < 1e-9, "{name}: {:e}", solution.report.residual);
     let tangents = list(&set["tangent"]);
     assert_eq!(tangents.len(), solution.knots.len());
     for (i, (knot, tangent)) in solution.knots.iter().zip(tangents).enumerate() {
-        for ours in [knot.direction_in, knot.direction_out]
-            .into_iter()
-            .flatten()
-        {
+        for ours in [knot.direction_in, knot.direction_out].into_iter().flatten() {
             let error = wrap_angle(ours - number(tangent)).abs();
-            assert!(
-                error <= uncertainty,
-                "{name}, knot {i}: {ours}, off by {error:e}"
-            );
+            assert!(error <= uncertainty, "{name}, knot {i}: {ours}, off by {error:e}");
         }
     }
 }
@@ -157,23 +128,13 @@ fn euler_splines() {
         let contour = contour(set, std::iter::repeat(Join::G2));
         let solution = solve(&contour, &*spline).unwrap();
         assert_tangents(name, &solution, set, uncertainty);
-        for (i, (knot, curvature)) in solution
-            .knots
-            .iter()
-            .zip(list(&set["curvature"]))
-            .enumerate()
+        for (i, (knot, curvature)) in solution.knots.iter().zip(list(&set["curvature"])).enumerate()
         {
             let curvature = number(curvature);
-            for ours in [knot.curvature_in, knot.curvature_out]
-                .into_iter()
-                .flatten()
-            {
+            for ours in [knot.curvature_in, knot.curvature_out].into_iter().flatten() {
                 let error = (ours - curvature).abs();
                 let bound = uncertainty * (1.0 + curvature.abs());
-                assert!(
-                    error <= bound,
-                    "{name}, knot {i}: curvature {ours}, off by {error:e}"
-                );
+                assert!(error <= bound, "{name}, knot {i}: curvature {ours}, off by {error:e}");
             }
         }
         if let Some(segments) = set["segments_unit_arclength"].as_array() {
@@ -198,10 +159,7 @@ fn spiro_splines() {
     let mut solved = 0;
     for (name, set) in sets {
         let Some(types) = set["types"].as_str() else {
-            assert!(
-                set["failed"].is_string(),
-                "{name} has neither a solution nor a reason"
-            );
+            assert!(set["failed"].is_string(), "{name} has neither a solution nor a reason");
             continue;
         };
         let joins = types.chars().map(|letter| match letter {
@@ -215,18 +173,11 @@ fn spiro_splines() {
         assert_tangents(name, &solution, set, uncertainty);
         let expected: Vec<[f64; 4]> = list(&set["k"]).iter().map(numbers::<4>).collect();
         assert_parameters(name, &solution, &expected, uncertainty);
-        for (i, (segment, chord_over_arc)) in solution
-            .curve
-            .segments()
-            .iter()
-            .zip(list(&set["chord_over_arc"]))
-            .enumerate()
+        for (i, (segment, chord_over_arc)) in
+            solution.curve.segments().iter().zip(list(&set["chord_over_arc"])).enumerate()
         {
             let ours = segment.chord_length() / segment.length();
-            assert!(
-                (ours - number(chord_over_arc)).abs() <= uncertainty,
-                "{name}, segment {i}"
-            );
+            assert!((ours - number(chord_over_arc)).abs() <= uncertainty, "{name}, segment {i}");
         }
         solved += 1;
     }

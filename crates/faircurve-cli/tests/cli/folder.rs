@@ -64,12 +64,7 @@ impl Run {
     /// What bad input prints; nothing on stdout.
     #[track_caller]
     pub(crate) fn refused(self) -> String {
-        assert_eq!(
-            (self.code, self.stdout.as_str()),
-            (2, ""),
-            "{}",
-            self.stderr
-        );
+        assert_eq!((self.code, self.stdout.as_str()), (2, ""), "{}", self.stderr);
         self.stderr
     }
 

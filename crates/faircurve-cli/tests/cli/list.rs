@@ -15,11 +15,7 @@ fn text_names_every_spline_join_end_parameter_and_claim() {
         assert!(info.joins.iter().all(|join| block.contains(join.name())));
         assert!(info.ends.iter().all(|end| block.contains(end)));
         assert!(info.params.iter().all(|param| block.contains(param.name)));
-        assert!(
-            info.claims
-                .iter()
-                .all(|claim| block.contains(&claim.to_string()))
-        );
+        assert!(info.claims.iter().all(|claim| block.contains(&claim.to_string())));
     }
 }
 
@@ -36,10 +32,7 @@ fn json_has_the_same() {
         assert_eq!(entry["params"].as_array().unwrap().len(), info.params.len());
         assert_eq!(entry["claims"].as_array().unwrap().len(), info.claims.len());
     }
-    let euler = splines
-        .iter()
-        .find(|entry| entry["name"] == "euler")
-        .unwrap();
+    let euler = splines.iter().find(|entry| entry["name"] == "euler").unwrap();
     assert_eq!(euler["params"][0]["kind"], "choice");
     assert_eq!(euler["params"][0]["default"], "arc");
 }

@@ -222,11 +222,7 @@ fn colour_is_for_terminals_that_want_it() {
     assert!(!folder.run("solve missing.json").stderr.contains('\x1b'));
     let run = |name: &str, value: &str| {
         let mut command = assert_cmd::Command::cargo_bin("faircurve").unwrap();
-        let output = command
-            .env(name, value)
-            .args(["solve", "missing.json"])
-            .output()
-            .unwrap();
+        let output = command.env(name, value).args(["solve", "missing.json"]).output().unwrap();
         String::from_utf8(output.stderr).unwrap()
     };
     assert!(run("CLICOLOR_FORCE", "1").contains("\x1b["));

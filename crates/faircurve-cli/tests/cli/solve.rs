@@ -24,21 +24,14 @@ fn glyph_names(solution: &str) -> Vec<(String, String)> {
     let file: Value = serde_json::from_str(solution).unwrap();
     let text = |value: &Value| value.as_str().unwrap().to_owned();
     let glyphs = file["glyphs"].as_array().unwrap();
-    glyphs
-        .iter()
-        .map(|glyph| (text(&glyph["name"]), text(&glyph["layer"])))
-        .collect()
+    glyphs.iter().map(|glyph| (text(&glyph["name"]), text(&glyph["layer"]))).collect()
 }
 
 fn splines(solution: &str) -> Vec<String> {
     let file: Value = serde_json::from_str(solution).unwrap();
     let glyphs = file["glyphs"].as_array().unwrap();
-    let contours = glyphs
-        .iter()
-        .flat_map(|glyph| glyph["contours"].as_array().unwrap());
-    contours
-        .map(|contour| contour["spline"].as_str().unwrap().to_owned())
-        .collect()
+    let contours = glyphs.iter().flat_map(|glyph| glyph["contours"].as_array().unwrap());
+    contours.map(|contour| contour["spline"].as_str().unwrap().to_owned()).collect()
 }
 
 #[test]
@@ -57,12 +50,7 @@ fn stdin_is_json_or_what_from_says() {
     let from_json = folder.run_with("solve - --format path", DRAWING).solved();
     assert!(from_json.starts_with("M0,0 C"));
     let rows = "# closed\n0,0,corner\n90,10\n50,80\n";
-    assert_eq!(
-        folder
-            .run_with("solve --from csv --format path -", rows)
-            .solved(),
-        from_json
-    );
+    assert_eq!(folder.run_with("solve --from csv --format path -", rows).solved(), from_json);
 }
 
 #[test]
@@ -74,26 +62,17 @@ fn the_extension_tells_the_format() {
         ("a.path", b"M0,0 C"),
         ("a.out.json", b"{\n \"faircurve\": 1"),
     ] {
-        folder
-            .run(&format!("solve drawing.json -o {name}"))
-            .solved();
-        assert!(
-            std::fs::read(folder.path(name)).unwrap().starts_with(start),
-            "{name}"
-        );
+        folder.run(&format!("solve drawing.json -o {name}")).solved();
+        assert!(std::fs::read(folder.path(name)).unwrap().starts_with(start), "{name}");
     }
-    folder
-        .run("solve drawing.json -o odd.txt --format svg --show knots,comb")
-        .solved();
+    folder.run("solve drawing.json -o odd.txt --format svg --show knots,comb").solved();
     let svg = std::fs::read_to_string(folder.path("odd.txt")).unwrap();
     assert!(svg.contains("class=\"comb-teeth\"") && svg.contains("class=\"knots-solid\""));
 }
 
 #[test]
 fn several_files_make_one_result() {
-    let folder = Folder::new()
-        .with("one.json", FONT)
-        .with("two.csv", "0,0\n1,1\n");
+    let folder = Folder::new().with("one.json", FONT).with("two.csv", "0,0\n1,1\n");
     let names = glyph_names(&folder.run("solve one.json two.csv").stdout);
     assert_eq!(names.len(), 4);
     assert_eq!(names[3], (String::new(), String::new()));
@@ -105,17 +84,14 @@ fn glyphs_and_layers_are_picked() {
     let names = |options: &str| {
         let run = folder.run(&format!("solve font.json {options}"));
         let names = glyph_names(&run.stdout);
-        names
-            .into_iter()
-            .map(|(name, layer)| name + "/" + &layer)
-            .collect::<Vec<_>>()
-            .join(" ")
+        names.into_iter().map(|(name, layer)| name + "/" + &layer).collect::<Vec<_>>().join(" ")
     };
     assert_eq!(names(""), "a/Fore a/Back b/Fore");
     assert_eq!(names("--glyph a"), "a/Fore a/Back");
     assert_eq!(names("--layer Fore"), "a/Fore b/Fore");
     assert_eq!(names("--glyph a --glyph b --layer Fore"), "a/Fore b/Fore");
     assert_eq!(names("--glyph a --layer Back"), "a/Back");
+    assert_eq!(names("--glyph b --glyph a"), "b/Fore a/Fore a/Back");
 }
 
 #[test]
@@ -131,15 +107,8 @@ fn the_command_lines_spline_overrides_the_documents() {
 fn parameters_reach_the_spline() {
     let folder = Folder::new().with("arc.csv", "0,0\n10,5\n30,0\n");
     let default = folder.run("solve arc.csv --spline euler").solved();
-    assert_eq!(
-        folder
-            .run("solve arc.csv --spline euler --param end=arc")
-            .solved(),
-        default
-    );
-    let other = folder
-        .run("solve arc.csv --spline euler --param end=zero-curvature")
-        .solved();
+    assert_eq!(folder.run("solve arc.csv --spline euler --param end=arc").solved(), default);
+    let other = folder.run("solve arc.csv --spline euler --param end=zero-curvature").solved();
     assert_ne!(other, default);
 }
 
@@ -156,10 +125,7 @@ fn accuracy_and_samples_are_as_asked() {
     assert!(cubics("--accuracy 1e-6") > cubics("--accuracy 1"));
     let text = folder.run("solve drawing.json --samples 4").solved();
     let file: Value = serde_json::from_str(&text).unwrap();
-    for segment in file["glyphs"][0]["contours"][0]["segments"]
-        .as_array()
-        .unwrap()
-    {
+    for segment in file["glyphs"][0]["contours"][0]["segments"].as_array().unwrap() {
         assert_eq!(segment["samples"].as_array().unwrap().len(), 5);
     }
 }
@@ -182,18 +148,11 @@ fn relaxed_is_written_named_and_exits_with_3() {
     let (relaxed, hint) = run.stderr.split_once('\n').unwrap();
     // The reason is the solver's to word.
     let place = "relaxed: hard.json: glyph `a`, layer `Fore`, contour 1, knot 1: asked g4, got g";
-    assert!(
-        relaxed.starts_with(place) && relaxed.matches(": ").count() >= 4,
-        "{relaxed}"
-    );
+    assert!(relaxed.starts_with(place) && relaxed.matches(": ").count() >= 4, "{relaxed}");
     insta::assert_snapshot!(hint, @r"
     hint: 1 of 2 contours could not be solved as asked: move knots or ask for less there, or accept the nearest curve with --allow-relaxed
     ");
-    assert!(
-        std::fs::read_to_string(folder.path("hard.svg"))
-            .unwrap()
-            .contains("relaxed")
-    );
+    assert!(std::fs::read_to_string(folder.path("hard.svg")).unwrap().contains("relaxed"));
     let allowed = folder.run("solve hard.json -o hard.svg --allow-relaxed");
     assert_eq!(allowed.code, 0);
     assert_eq!(allowed.stderr.lines().next(), run.stderr.lines().next());
@@ -204,9 +163,7 @@ fn relaxed_is_written_named_and_exits_with_3() {
 
 #[test]
 fn bad_input_leaves_an_older_file_as_it_was() {
-    let folder = Folder::new()
-        .with("bad.csv", "0,0\n10,1o\n")
-        .with("out.svg", "precious");
+    let folder = Folder::new().with("bad.csv", "0,0\n10,1o\n").with("out.svg", "precious");
     folder.run("solve bad.csv -o out.svg").refused();
     assert_eq!(std::fs::read(folder.path("out.svg")).unwrap(), b"precious");
     assert_eq!(folder.files(), ["bad.csv", "out.svg"]);
@@ -214,15 +171,9 @@ fn bad_input_leaves_an_older_file_as_it_was() {
 
 #[test]
 fn a_good_file_replaces_an_older_one_and_leaves_nothing_beside_it() {
-    let folder = Folder::new()
-        .with("drawing.json", DRAWING)
-        .with("out.svg", "old");
+    let folder = Folder::new().with("drawing.json", DRAWING).with("out.svg", "old");
     folder.run("solve drawing.json -o out.svg").solved();
-    assert!(
-        std::fs::read(folder.path("out.svg"))
-            .unwrap()
-            .starts_with(b"<svg")
-    );
+    assert!(std::fs::read(folder.path("out.svg")).unwrap().starts_with(b"<svg"));
     assert_eq!(folder.files(), ["drawing.json", "out.svg"]);
 }
 
@@ -232,39 +183,22 @@ fn what_cannot_be_written_is_refused_whole() {
     let folder = Folder::new().with("drawing.json", DRAWING);
     std::fs::create_dir(folder.path("there")).unwrap();
     for target in ["there", "missing/out.svg", "drawing.json", "out.gif", "out"] {
-        folder
-            .run(&format!("solve drawing.json -o {target}"))
-            .refused();
+        folder.run(&format!("solve drawing.json -o {target}")).refused();
     }
     assert_eq!(folder.files(), ["drawing.json", "there"]);
-    assert_eq!(
-        std::fs::read_to_string(folder.path("drawing.json")).unwrap(),
-        DRAWING
-    );
+    assert_eq!(std::fs::read_to_string(folder.path("drawing.json")).unwrap(), DRAWING);
 }
 
 #[cfg(unix)]
 #[test]
 fn files_are_as_readable_as_any_and_links_stay_links() {
     use std::os::unix::fs::{PermissionsExt, symlink};
-    let folder = Folder::new()
-        .with("drawing.json", DRAWING)
-        .with("plain", "");
+    let folder = Folder::new().with("drawing.json", DRAWING).with("plain", "");
     symlink("real.svg", folder.path("link.svg")).unwrap();
     std::fs::write(folder.path("real.svg"), "old").unwrap();
     folder.run("solve drawing.json -o link.svg").solved();
-    assert!(
-        folder
-            .path("link.svg")
-            .symlink_metadata()
-            .unwrap()
-            .is_symlink()
-    );
-    assert!(
-        std::fs::read(folder.path("real.svg"))
-            .unwrap()
-            .starts_with(b"<svg")
-    );
+    assert!(folder.path("link.svg").symlink_metadata().unwrap().is_symlink());
+    assert!(std::fs::read(folder.path("real.svg")).unwrap().starts_with(b"<svg"));
     folder.run("solve drawing.json -o new.svg").solved();
     let mode = |name: &str| folder.path(name).metadata().unwrap().permissions().mode();
     assert_eq!(mode("new.svg"), mode("plain"));
@@ -290,10 +224,8 @@ fn a_reader_that_goes_away_is_no_failure() {
 
 #[test]
 fn a_real_font_is_solved_whole() {
-    let font = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../../../shared/data/Cantarell-Regular-Spiro.sfd"
-    );
+    let font =
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/Cantarell-Regular-Spiro.sfd");
     if !std::path::Path::new(font).exists() {
         println!("skipped: ../shared/data/Cantarell-Regular-Spiro.sfd is not there");
         return;

@@ -15,10 +15,7 @@ const PAGE: f64 = 1.5;
 
 /// Places the cells and returns the box of all. A single cell keeps its own coordinates.
 pub(super) fn arrange(cells: &mut [Cell], size: f64) -> Rect {
-    let boxes: Vec<Rect> = cells
-        .iter()
-        .map(|cell| cell.bounds().unwrap_or(Rect::ZERO))
-        .collect();
+    let boxes: Vec<Rect> = cells.iter().map(|cell| cell.bounds().unwrap_or(Rect::ZERO)).collect();
     if let [only] = boxes.as_slice() {
         return *only;
     }
@@ -42,10 +39,7 @@ pub(super) fn arrange(cells: &mut [Cell], size: f64) -> Rect {
         // Where the next row's top is.
         base += bottom + gap;
     }
-    placed
-        .into_iter()
-        .reduce(|a, b| a.union(b))
-        .unwrap_or(Rect::ZERO)
+    placed.into_iter().reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO)
 }
 
 /// How wide rows may be.
@@ -71,11 +65,9 @@ fn fitting(boxes: &[Rect], width: f64, gap: f64) -> usize {
 
 /// The highest top and the lowest bottom (y down).
 fn vertical_extent(boxes: &[Rect]) -> (f64, f64) {
-    boxes
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(top, bottom), b| {
-            (top.min(b.y0), bottom.max(b.y1))
-        })
+    boxes.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(top, bottom), b| {
+        (top.min(b.y0), bottom.max(b.y1))
+    })
 }
 
 #[cfg(test)]
@@ -93,12 +85,7 @@ mod tests {
             stroke: None,
             exact: true,
         };
-        Cell {
-            name: String::new(),
-            layer: String::new(),
-            offset: Vec2::ZERO,
-            marks: vec![mark],
-        }
+        Cell { name: String::new(), layer: String::new(), offset: Vec2::ZERO, marks: vec![mark] }
     }
 
     fn arranged(boxes: &[Rect]) -> Vec<Cell> {
@@ -112,10 +99,7 @@ mod tests {
 
     #[test]
     fn a_few_share_a_row_and_its_base_line() {
-        let cells = arranged(&[
-            Rect::new(5.0, -7.0, 9.0, 0.0),
-            Rect::new(-3.0, -5.0, 1.0, 2.0),
-        ]);
+        let cells = arranged(&[Rect::new(5.0, -7.0, 9.0, 0.0), Rect::new(-3.0, -5.0, 1.0, 2.0)]);
         assert!(cells.iter().all(|cell| cell.offset.y == 0.0));
         assert!(cells[1].offset.x - 3.0 > cells[0].offset.x + 9.0);
     }
@@ -126,11 +110,7 @@ mod tests {
             .map(|i| Rect::from_origin_size((0.0, -8.0), (4.0 + f64::from(i % 7), 10.0)))
             .collect();
         let cells = arranged(&boxes);
-        let placed: Vec<Rect> = cells
-            .iter()
-            .zip(&boxes)
-            .map(|(c, b)| *b + c.offset)
-            .collect();
+        let placed: Vec<Rect> = cells.iter().zip(&boxes).map(|(c, b)| *b + c.offset).collect();
         for (i, a) in placed.iter().enumerate() {
             for b in &placed[..i] {
                 assert!(a.intersect(*b).area() == 0.0);
@@ -142,9 +122,6 @@ mod tests {
 
     #[test]
     fn one_glyph_keeps_its_coordinates() {
-        assert_eq!(
-            arranged(&[Rect::new(70.0, 30.0, 90.0, 60.0)])[0].offset,
-            Vec2::ZERO
-        );
+        assert_eq!(arranged(&[Rect::new(70.0, 30.0, 90.0, 60.0)])[0].offset, Vec2::ZERO);
     }
 }

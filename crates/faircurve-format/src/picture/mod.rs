@@ -26,8 +26,8 @@ mod comb;
 mod layout;
 mod symbols;
 
+use faircurve::Status;
 use faircurve::kurbo::{Affine, BezPath, Point, Rect, Shape, Vec2};
-use faircurve::{Place, Status};
 
 use crate::solved::{SolvedContour, SolvedGlyph};
 use comb::CombScale;
@@ -135,6 +135,10 @@ const KNOT_RADIUS: f64 = 0.0095;
 const KNOT_LINE_WIDTH: f64 = 0.0024;
 const MARGIN: f64 = 0.04;
 
+/// Knots and segments beyond this many go into a mark of their own: the time to fill a path grows
+/// with the square of what it holds. Only where areas of two marks overlap can it be seen.
+const MOST_AT_ONCE: usize = 256;
+
 impl Picture {
     /// The picture of these glyphs, in rows from left to right; glyphs without contours are left
     /// out.
@@ -159,12 +163,7 @@ impl Picture {
         };
         // Five significant digits of the size are a hundredth of a hair's breadth.
         let decimals = (5.0 - size.log10().floor()).clamp(0.0, 100.0) as usize;
-        Picture {
-            view,
-            ground: show.any(),
-            decimals,
-            cells,
-        }
+        Picture { view, ground: show.any(), decimals, cells }
     }
 
     /// Width over height.
@@ -192,9 +191,7 @@ fn size(glyphs: &[&SolvedGlyph]) -> f64 {
         return longest;
     }
     // Nothing but points: as large as their coordinates can show.
-    boxes().fold(1.0, |size: f64, b| {
-        size.max(1e-6 * b.x0.abs()).max(1e-6 * b.y0.abs())
-    })
+    boxes().fold(1.0, |size: f64, b| size.max(1e-6 * b.x0.abs()).max(1e-6 * b.y0.abs()))
 }
 
 /// What is drawn of one glyph, back to front.
@@ -215,10 +212,7 @@ fn marks(glyph: &SolvedGlyph, show: Show, scale: Option<&CombScale>, size: f64) 
 }
 
 fn filling(glyph: &SolvedGlyph, show: Show) -> Mark {
-    let closed = glyph
-        .contours
-        .iter()
-        .filter(|c| c.solution.curve.is_closed());
+    let closed = glyph.contours.iter().filter(|c| c.solution.curve.is_closed());
     Mark {
         class: "outline",
         path: joined(closed),
@@ -236,34 +230,15 @@ fn lines(glyph: &SolvedGlyph, show: Show, size: f64) -> [Mark; 2] {
         class,
         path,
         fill: None,
-        stroke: Some(Stroke {
-            paint,
-            width: LINE_WIDTH * size,
-            dashed,
-        }),
+        stroke: Some(Stroke { paint, width: LINE_WIDTH * size, dashed }),
         exact: true,
     };
     let bare = |c: &&SolvedContour| show.any() || !c.solution.curve.is_closed();
     let solved = joined(glyph.contours.iter().filter(|c| !relaxed(c) && bare(c)));
     let relaxed = joined(glyph.contours.iter().filter(relaxed));
-    [
-        line("line", solved, LINE, false),
-        line("relaxed", relaxed, RELAXED, true),
-    ]
+    [line("line", solved, LINE, false), line("relaxed", relaxed, RELAXED, true)]
 }
 
 fn joined<'a>(contours: impl Iterator<Item = &'a SolvedContour>) -> BezPath {
-    contours
-        .flat_map(|contour| contour.path.elements().iter().copied())
-        .collect()
-}
-
-/// The knots of which something was relaxed, by index.
-fn relaxed_knots(contour: &SolvedContour) -> impl Fn(usize) -> bool + '_ {
-    let relaxed = &contour.solution.report.relaxed;
-    move |index| {
-        relaxed
-            .iter()
-            .any(|entry| entry.place == Place::Knot(index))
-    }
+    contours.flat_map(|contour| contour.path.elements().iter().copied()).collect()
 }

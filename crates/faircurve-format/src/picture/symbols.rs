@@ -1,9 +1,11 @@
 //! The symbols of knots: thesis Tables 7.1 and 10.1. The legend is in the module above.
 
-use faircurve::Join;
-use faircurve::kurbo::{Affine, BezPath, Circle, CircleSegment, Rect, Shape};
+use std::collections::HashSet;
 
-use super::{KNOT_LINE_WIDTH, KNOT_RADIUS, LINE, Mark, PAPER, RELAXED, Stroke, relaxed_knots};
+use faircurve::kurbo::{Affine, BezPath, Circle, CircleSegment, Rect, Shape};
+use faircurve::{Join, Place, SolvedKnot};
+
+use super::{KNOT_LINE_WIDTH, KNOT_RADIUS, LINE, MOST_AT_ONCE, Mark, PAPER, RELAXED, Stroke};
 use crate::solved::{SolvedContour, SolvedGlyph};
 
 /// What stands at a knot.
@@ -15,8 +17,7 @@ enum Symbol {
 }
 
 impl Symbol {
-    fn of(contour: &SolvedContour, index: usize) -> Symbol {
-        let knot = &contour.solution.knots[index];
+    fn of(knot: &SolvedKnot) -> Symbol {
         match (knot.direction_in, knot.direction_out) {
             (None, Some(_)) => Symbol::Start,
             (Some(_), None) => Symbol::End,
@@ -69,36 +70,45 @@ fn polygon(points: &[(f64, f64)]) -> BezPath {
 }
 
 /// The knots of a glyph: hollow and solid symbols, as asked and relaxed.
-pub(super) fn marks(glyph: &SolvedGlyph, size: f64) -> [Mark; 4] {
+pub(super) fn marks(glyph: &SolvedGlyph, size: f64) -> Vec<Mark> {
+    let knots: Vec<PlacedSymbol<'_>> = glyph.contours.iter().flat_map(placed_symbols).collect();
+    knots.chunks(MOST_AT_ONCE).flat_map(|some| symbols(some, size)).collect()
+}
+
+struct PlacedSymbol<'a> {
+    symbol: Symbol,
+    knot: &'a SolvedKnot,
+    relaxed: bool,
+}
+
+fn placed_symbols(contour: &SolvedContour) -> impl Iterator<Item = PlacedSymbol<'_>> {
+    let relaxed: HashSet<Place> =
+        contour.solution.report.relaxed.iter().map(|entry| entry.place).collect();
+    contour.solution.knots.iter().enumerate().map(move |(index, knot)| PlacedSymbol {
+        symbol: Symbol::of(knot),
+        knot,
+        relaxed: relaxed.contains(&Place::Knot(index)),
+    })
+}
+
+fn symbols(placed: &[PlacedSymbol<'_>], size: f64) -> [Mark; 4] {
     let mut paths: [BezPath; 4] = Default::default();
-    for contour in &glyph.contours {
-        let is_relaxed = relaxed_knots(contour);
-        for (index, knot) in contour.solution.knots.iter().enumerate() {
-            let symbol = Symbol::of(contour, index);
-            let direction = knot
-                .direction_out
-                .or(knot.direction_in)
-                .filter(|_| symbol.turns());
-            let mut path = symbol.path();
-            path.apply_affine(
-                Affine::translate(knot.point.to_vec2())
-                    * Affine::rotate(direction.unwrap_or(0.0))
-                    * Affine::scale(KNOT_RADIUS * size),
-            );
-            let group = usize::from(symbol.is_solid()) + 2 * usize::from(is_relaxed(index));
-            paths[group].extend(path);
-        }
+    for PlacedSymbol { symbol, knot, relaxed } in placed {
+        let direction = knot.direction_out.or(knot.direction_in).filter(|_| symbol.turns());
+        let mut path = symbol.path();
+        path.apply_affine(
+            Affine::translate(knot.point.to_vec2())
+                * Affine::rotate(direction.unwrap_or(0.0))
+                * Affine::scale(KNOT_RADIUS * size),
+        );
+        paths[usize::from(symbol.is_solid()) + 2 * usize::from(*relaxed)].extend(path);
     }
     let [hollow, solid, relaxed_hollow, relaxed_solid] = paths;
     let mark = |class, path, fill, line| Mark {
         class,
         path,
         fill: Some(fill),
-        stroke: Some(Stroke {
-            paint: line,
-            width: KNOT_LINE_WIDTH * size,
-            dashed: false,
-        }),
+        stroke: Some(Stroke { paint: line, width: KNOT_LINE_WIDTH * size, dashed: false }),
         exact: false,
     };
     [

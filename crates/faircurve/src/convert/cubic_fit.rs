@@ -25,20 +25,12 @@ pub(super) fn cubics(segment: &Segment, accuracy: f64) -> Vec<CubicBez> {
     /// Guards against endless division; at sixth order 4096 pieces gain 21 digits over one.
     const MOST_PIECES: f64 = 4096.0;
     let length = segment.length();
-    let accuracy = if accuracy > FINEST * length {
-        accuracy
-    } else {
-        FINEST * length
-    };
+    let accuracy = if accuracy > FINEST * length { accuracy } else { FINEST * length };
     let bend = wildness(segment.kappa());
     let mut count = (bend / MOST_BEND).ceil().clamp(1.0, MOST_PIECES);
     loop {
         let cut = |i: f64| {
-            if i == count {
-                length
-            } else {
-                length * i / count
-            }
+            if i == count { length } else { length * i / count }
         };
         let mut worst = 0.0f64;
         let mut result = Vec::with_capacity(count as usize);
@@ -53,12 +45,8 @@ pub(super) fn cubics(segment: &Segment, accuracy: f64) -> Vec<CubicBez> {
         }
         // The error falls as the sixth power of the number of pieces.
         let factor = (worst / accuracy).powf(1.0 / 6.0);
-        count = if factor.is_finite() {
-            (count * factor).ceil()
-        } else {
-            2.0 * count
-        }
-        .clamp(count + 1.0, MOST_PIECES.min(4.0 * count));
+        count = if factor.is_finite() { (count * factor).ceil() } else { 2.0 * count }
+            .clamp(count + 1.0, MOST_PIECES.min(4.0 * count));
     }
 }
 
@@ -101,12 +89,7 @@ fn contact_arms(piece: &Segment, t0: Vec2, t1: Vec2) -> Vec<[f64; 2]> {
     let c = (3.0 * k0.powi(3) + k2) / 24.0;
     let d = (19.0 * k0 * k0 * k1 + k3) / 120.0;
     let e = k0 * (45.0 * k0.powi(4) + 34.0 * k0 * k2 + 48.0 * k1 * k1) / 720.0;
-    let contact = [
-        3.0 * b * c - 2.0 * a * d,
-        9.0 * b * b - 6.0 * a * c,
-        3.0 * a * b,
-        2.0 * a * a,
-    ];
+    let contact = [3.0 * b * c - 2.0 * a * d, 9.0 * b * b - 6.0 * a * c, 3.0 * a * b, 2.0 * a * a];
     let mut candidates: Vec<(f64, [f64; 2])> = Vec::new();
     for alpha in roots_between(&contact, -2.0, 2.0) {
         // Two forms of the same; the better conditioned one.
@@ -160,11 +143,7 @@ fn meet_ends(piece: &Segment, t0: Vec2, t1: Vec2, start: [f64; 2], e6: f64) -> O
         b -= (g * fa - f * s) / determinant;
     }
     let sane = |arm: f64| arm > 0.0 && arm < h;
-    if sane(a) && sane(b) {
-        Some([a, b])
-    } else {
-        start.into_iter().all(sane).then_some(start)
-    }
+    if sane(a) && sane(b) { Some([a, b]) } else { start.into_iter().all(sane).then_some(start) }
 }
 
 /// Places along a piece at which cubics are compared with it.
@@ -252,11 +231,7 @@ mod tests {
                 let accuracy = 10f64.powi(-decade);
                 let cubics = cubics(&segment, accuracy);
                 let error = true_deviation(&segment, &cubics);
-                assert!(
-                    error <= accuracy,
-                    "{k:?} {accuracy:e}: {error:e}, {}",
-                    cubics.len()
-                );
+                assert!(error <= accuracy, "{k:?} {accuracy:e}: {error:e}, {}", cubics.len());
             }
         }
     }

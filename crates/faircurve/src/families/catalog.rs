@@ -216,16 +216,8 @@ impl fmt::Display for CatalogError {
             CatalogError::UnknownParam { spline, asked } => {
                 write!(f, "spline `{spline}` has no parameter `{asked}`")
             }
-            CatalogError::BadValue {
-                spline,
-                param,
-                value,
-                ..
-            } => {
-                write!(
-                    f,
-                    "parameter `{param}` of spline `{spline}` can't be `{value}`"
-                )
+            CatalogError::BadValue { spline, param, value, .. } => {
+                write!(f, "parameter `{param}` of spline `{spline}` can't be `{value}`")
             }
         }
     }
@@ -263,9 +255,7 @@ pub fn find(name: &str) -> Result<&'static SplineInfo, CatalogError> {
         .iter()
         .copied()
         .find(|info| info.name == name)
-        .ok_or_else(|| CatalogError::UnknownSpline {
-            asked: name.to_owned(),
-        })
+        .ok_or_else(|| CatalogError::UnknownSpline { asked: name.to_owned() })
 }
 
 /// The spline of that name with every default.
@@ -283,21 +273,15 @@ pub fn spline(name: &str) -> Result<Box<dyn Spline>, CatalogError> {
 pub fn build(name: &str, params: &Params) -> Result<Box<dyn Spline>, CatalogError> {
     let info = find(name)?;
     for (asked, value) in params.iter() {
-        let spec = info
-            .params
-            .iter()
-            .find(|spec| spec.name == asked)
-            .ok_or_else(|| CatalogError::UnknownParam {
-                spline: info.name,
-                asked: asked.to_owned(),
-            })?;
-        spec.check(value)
-            .map_err(|expected| CatalogError::BadValue {
-                spline: info.name,
-                param: spec.name,
-                value: value.to_string(),
-                expected,
-            })?;
+        let spec = info.params.iter().find(|spec| spec.name == asked).ok_or_else(|| {
+            CatalogError::UnknownParam { spline: info.name, asked: asked.to_owned() }
+        })?;
+        spec.check(value).map_err(|expected| CatalogError::BadValue {
+            spline: info.name,
+            param: spec.name,
+            value: value.to_string(),
+            expected,
+        })?;
     }
     Ok((info.build)(params))
 }
@@ -346,10 +330,7 @@ pub fn suggest<'a>(asked: &str, candidates: impl IntoIterator<Item = &'a str>) -
         [] if candidates.is_empty() => "leave it out".to_owned(),
         [] => format!("use {}", one_of(candidates)),
         [only] => format!("did you mean `{}`?", only.1),
-        several => format!(
-            "did you mean {}?",
-            one_of(several.iter().map(|(_, name)| *name))
-        ),
+        several => format!("did you mean {}?", one_of(several.iter().map(|(_, name)| *name))),
     }
 }
 

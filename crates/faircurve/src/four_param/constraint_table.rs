@@ -99,19 +99,19 @@ pub struct SegmentConstraints {
 impl SegmentConstraints {
     /// The constraints on a segment that lies between two knots with these conditions: those of
     /// `start` about its right side and of `end` about its left side.
-    pub fn between(start: &[Condition], end: &[Condition]) -> Self {
-        let at_start = start.iter().filter_map(|condition| match condition {
-            Zero(Right, quantity) => Some(derivative_row(*quantity, -0.5)),
+    pub fn between(
+        start: impl IntoIterator<Item = Condition>,
+        end: impl IntoIterator<Item = Condition>,
+    ) -> Self {
+        let at_start = start.into_iter().filter_map(|condition| match condition {
+            Zero(Right, quantity) => Some(derivative_row(quantity, -0.5)),
             _ => None,
         });
-        let at_end = end.iter().filter_map(|condition| match condition {
-            Zero(Left, quantity) => Some(derivative_row(*quantity, 0.5)),
+        let at_end = end.into_iter().filter_map(|condition| match condition {
+            Zero(Left, quantity) => Some(derivative_row(quantity, 0.5)),
             _ => None,
         });
-        let mut constraints = SegmentConstraints {
-            solved: Vec::new(),
-            dependent: false,
-        };
+        let mut constraints = SegmentConstraints { solved: Vec::new(), dependent: false };
         at_start.chain(at_end).for_each(|row| constraints.add(row));
         constraints
     }
@@ -131,10 +131,7 @@ impl SegmentConstraints {
     /// Removes from `k` what rounding has left of quantities that are zero.
     pub fn enforce(&self, k: &mut [f64; 4]) {
         for (index, combination) in &self.solved {
-            k[*index] = (0..4)
-                .filter(|i| i != index)
-                .map(|i| combination[i] * k[i])
-                .sum();
+            k[*index] = (0..4).filter(|i| i != index).map(|i| combination[i] * k[i]).sum();
         }
     }
 
@@ -176,7 +173,7 @@ mod tests {
     use super::*;
 
     fn unknowns(start: &[Condition], end: &[Condition]) -> (usize, bool) {
-        let constraints = SegmentConstraints::between(start, end);
+        let constraints = SegmentConstraints::between(start.iter().copied(), end.iter().copied());
         (constraints.unknowns(), constraints.is_singular())
     }
 
@@ -192,10 +189,8 @@ mod tests {
     #[test]
     fn unknowns_follow_from_the_rank() {
         let (g2, g4) = (conditions(Join::G2), conditions(Join::G4));
-        let (leaves, arrives) = (
-            conditions(Join::CurveToTerminal),
-            conditions(Join::TerminalToCurve),
-        );
+        let (leaves, arrives) =
+            (conditions(Join::CurveToTerminal), conditions(Join::TerminalToCurve));
         assert_eq!(unknowns(&g4, &g4), (4, false));
         assert_eq!(unknowns(&g2, &g4), (3, false));
         assert_eq!(unknowns(&g4, &g2), (3, false));
@@ -215,9 +210,9 @@ mod tests {
     #[test]
     fn enforcing_leaves_only_what_is_free() {
         let mut k = [0.5, 0.25, 1e-17, -1e-16];
-        SegmentConstraints::between(&conditions(Join::G2), &conditions(Join::G2)).enforce(&mut k);
+        SegmentConstraints::between(conditions(Join::G2), conditions(Join::G2)).enforce(&mut k);
         assert_eq!(k, [0.5, 0.25, 0.0, 0.0]);
-        SegmentConstraints::between(&START, &conditions(Join::G2)).enforce(&mut k);
+        SegmentConstraints::between(START, conditions(Join::G2)).enforce(&mut k);
         assert_eq!(k, [0.5, 0.0, 0.0, 0.0]);
     }
 }

@@ -27,13 +27,12 @@ struct Solved {
 
 impl Solved {
     fn residual(&self) -> f64 {
-        self.residuals.iter().fold(0.0, |worst, r| {
-            if r.is_nan() {
-                f64::INFINITY
-            } else {
-                worst.max(*r)
-            }
-        })
+        self.residuals.iter().fold(
+            0.0,
+            |worst, r| {
+                if r.is_nan() { f64::INFINITY } else { worst.max(*r) }
+            },
+        )
     }
 
     fn is_solved(&self) -> bool {
@@ -87,10 +86,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
                 }
                 let solved = self.solve_split(&weaker, BUDGET / 4);
                 iterations += solved.iterations;
-                last = Solved {
-                    iterations,
-                    ..solved
-                };
+                last = Solved { iterations, ..solved };
                 if last.is_solved() {
                     return (last, weaker);
                 }
@@ -114,26 +110,18 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
                 }
             }
         }
-        last.residuals
-            .iter_mut()
-            .filter(|r| !(**r <= SOLVED))
-            .for_each(|r| *r = 0.0);
+        last.residuals.iter_mut().filter(|r| !(**r <= SOLVED)).for_each(|r| *r = 0.0);
         (last, weaker)
     }
 
     /// Solves a run without G1 knots.
     fn solve_smooth(&self, run: &Run, budget: usize) -> Solved {
         let mut system = RunSystem::new(&self.family, run);
-        let arcs = self.arcs(run);
         let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
-        let outcome = strategy::solve(&mut system, &mut matrix, &arcs, budget);
-        for i in 0..system.parameters.len() {
-            system.constraints(i).enforce(&mut system.parameters[i]);
-        }
+        let outcome = strategy::solve(&mut system, &mut matrix, || self.arcs(run), budget);
+        system.clean();
         Solved {
-            residuals: (0..run.knots.len())
-                .map(|i| system.knot_residual(i))
-                .collect(),
+            residuals: (0..run.knots.len()).map(|i| system.knot_residual(i)).collect(),
             parameters: system.parameters,
             iterations: outcome.iterations,
         }
@@ -154,10 +142,8 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
                 let theta0 = tangent(i).map(|t| wrap_angle(chord - t));
                 let theta1 = tangent((i + 1) % n).map(|t| wrap_angle(t - chord));
                 // Symmetric at free ends.
-                let (theta0, theta1) = (
-                    theta0.or(theta1).unwrap_or(0.0),
-                    theta1.or(theta0).unwrap_or(0.0),
-                );
+                let (theta0, theta1) =
+                    (theta0.or(theta1).unwrap_or(0.0), theta1.or(theta0).unwrap_or(0.0));
                 self.family.between_tangents(theta0, theta1)
             })
             .collect()
@@ -166,9 +152,8 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
     /// Solves a run that may have G1 knots, at which it falls into stretches of their own.
     fn solve_split(&self, run: &Run, budget: usize) -> Solved {
         let n = run.knots.len();
-        let splits: Vec<usize> = (0..n)
-            .filter(|&i| is_interior(run, i) && run.knots[i].join == Join::G1)
-            .collect();
+        let splits: Vec<usize> =
+            (0..n).filter(|&i| is_interior(run, i) && run.knots[i].join == Join::G1).collect();
         if splits.is_empty() {
             return self.solve_smooth(run, budget);
         }
@@ -198,11 +183,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
             }
             for (i, residual) in solved.residuals.into_iter().enumerate() {
                 let worst = &mut whole.residuals[(pair[0] + i) % n];
-                *worst = if residual.is_nan() {
-                    residual
-                } else {
-                    worst.max(residual)
-                };
+                *worst = if residual.is_nan() { residual } else { worst.max(residual) };
             }
             whole.iterations += solved.iterations;
         }
@@ -255,12 +236,7 @@ fn relaxations(run: &Run, weaker: &Run) -> Vec<Relaxation> {
                 Some((asked.join.name(), Join::G1.name()))
             };
             let (asked, got) = names?;
-            Some(Relaxation {
-                place: Place::Knot(i),
-                asked,
-                got,
-                reason: reason(run, i, asked),
-            })
+            Some(Relaxation { place: Place::Knot(i), asked, got, reason: reason(run, i, asked) })
         })
         .collect()
 }
@@ -270,7 +246,7 @@ fn reason(run: &Run, i: usize, asked: &str) -> String {
     if !is_interior(run, i) {
         return format!("no curve was found that starts or ends here with this {asked}");
     }
-    let turn = run.turning(i).abs().to_degrees().round();
+    let turn = run.knots[i].turn.abs().to_degrees().round();
     let n = run.knots.len();
     let (before, after) = (run.chord((i + n - 1) % n).hypot(), run.chord(i).hypot());
     let ratio = (before / after).max(after / before);

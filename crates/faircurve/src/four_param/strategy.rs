@@ -1,106 +1,80 @@
-//! How a run is solved when plain Newton iteration isn't enough. See
-//! `docs/decisions/0004-strategy.md` for the measurements behind it.
+//! How a run is solved when plain Newton iteration isn't enough. The measurements behind it are in
+//! `docs/decisions/0004-strategy.md`.
 //!
 //! 1. **Newton** from straight segments, each segment's step limited on its own, so that good
-//!    stretches settle while bad ones still bounce. Nearly all real contours end here.
-//! 2. **Windings.** Where a stretch doesn't settle, or loops, the curve may have to take a turn the
-//!    other way round: a knot with turning t joined as t ∓ 2π. The bad stretch alone, with its rim
-//!    held, is restarted with other windings and other seeds until it settles; then the whole run
-//!    is solved on from there.
+//!    stretches settle while bad ones still bounce. Nearly all real contours end here. Two and three
+//!    knots, and knots on a circle, start from arcs, which are the solution.
+//! 2. **Mending.** A stretch that doesn't settle, or loops, is restarted alone, its rim held, with
+//!    other *windings* and other seeds, until it settles. Windings decide hard cases: a knot at
+//!    which the chords turn by t may have to be joined as t ∓ 2π, the other way round.
+//! 3. **Growing.** Where most of the run is bad, it is built anew knot by knot: each step adds one
+//!    and lets the last few settle with a free end, in the few windings nearest to the natural one.
+//!    Then what is left is mended, and the whole run solved on from there.
 //!
 //! Deterministic: the seeds are fixed, and the budget counts work, not time.
 
 use std::f64::consts::TAU;
 
 use super::family::FourParamFamily;
-use super::system::RunSystem;
+use super::system::{RunSystem, SystemKnot};
+use crate::frame::wrap_angle;
 use crate::numeric::block_tridiagonal::BlockTridiagonal;
 use crate::numeric::newton::{Limits, Outcome, newton};
 use crate::tolerance::{LOOP, SOLVED};
 
-/// Work that the rescue of one run may take, in segment evaluations: some 50 ms.
+/// Work that stages 2 and 3 may spend on one run, in segment evaluations: some 50 ms.
 pub(super) const BUDGET: usize = 200_000;
 
-/// How plain Newton iteration is limited. Runs that converge take 3 to 10 steps.
-const PLAIN: Limits = Limits {
-    iterations: 30,
-    patience: 12,
-};
+/// How plain Newton iteration is limited. Runs that converge take 3 to 10 steps; with more of them
+/// success comes to depend on rounding errors.
+const PLAIN: Limits = Limits { iterations: 30, patience: 12 };
 
 /// A stretch that settles does so in fewer.
-const WINDOW: Limits = Limits {
-    iterations: 20,
-    patience: 8,
-};
+const WINDOW: Limits = Limits { iterations: 12, patience: 8 };
 
 /// Knots whose residual exceeds this haven't settled.
 pub(super) const UNSETTLED: f64 = 1e-4;
 
-/// What an attempt has come to.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-struct Badness {
-    /// Knots that haven't settled.
-    unsettled: usize,
-    /// Segments that loop.
-    loops: usize,
-}
+/// The effect of one knot on another falls by a factor of about ¼ (G2) or ½ (G4) a knot: this far
+/// away it is small.
+const REACH: usize = 10;
 
 /// Solves the system as well as the budget allows; returns the steps taken and the residual. `arcs`
-/// are segments between circle tangents.
+/// gives segments between circle tangents.
 pub(super) fn solve<F: FourParamFamily>(
     system: &mut RunSystem<'_, F>,
     matrix: &mut BlockTridiagonal<2>,
-    arcs: &[[f64; 4]],
+    arcs: impl Fn() -> Vec<[f64; 4]>,
     budget: usize,
 ) -> Outcome {
     // Three knots always lie on a circle, two too many times.
     if system.knots.len() <= 3
-        && let Some(round) = solve_round(system, matrix, arcs)
+        && let Some(round) = solve_round(system, matrix, arcs())
     {
         return round;
     }
     let plain = newton(system, matrix, PLAIN);
-    if plain.residual <= SOLVED && badness(system).loops == 0 {
+    if plain.residual <= SOLVED && Badness::of(system).loops == 0 {
         return plain;
     }
-    if let Some(round) = solve_round(system, matrix, arcs) {
+    let plain_state = system.state();
+    if let Some(round) = solve_round(system, matrix, arcs()) {
         return round;
     }
-    system.evaluate();
-    // Seeds mirror with the run.
-    let sense = system
-        .knots
-        .iter()
-        .find(|knot| knot.turn.abs() > 1e-6)
-        .map_or(1.0, |knot| knot.turn.signum());
-    let mut rescue = Rescue {
-        budget,
-        random: Random(0),
-        sense,
-        iterations: plain.iterations,
-    };
+    system.set_state(&plain_state);
+    let mut rescue = Rescue::new(system, budget);
     let residual = rescue.run(system, matrix, plain.residual);
-    Outcome {
-        iterations: rescue.iterations,
-        residual,
-    }
+    Outcome { iterations: plain.iterations + rescue.iterations, residual }
 }
 
 /// Knots on a circle: the circle it is, however much of it lies between two of them.
 fn solve_round<F: FourParamFamily>(
     system: &mut RunSystem<'_, F>,
     matrix: &mut BlockTridiagonal<2>,
-    arcs: &[[f64; 4]],
+    arcs: Vec<[f64; 4]>,
 ) -> Option<Outcome> {
-    let before = std::mem::replace(&mut system.parameters, arcs.to_vec());
-    let round = newton(
-        system,
-        matrix,
-        Limits {
-            iterations: 0,
-            patience: 0,
-        },
-    );
+    let before = std::mem::replace(&mut system.parameters, arcs);
+    let round = newton(system, matrix, Limits { iterations: 0, patience: 0 });
     if round.residual <= SOLVED {
         Some(newton(system, matrix, PLAIN))
     } else {
@@ -109,47 +83,100 @@ fn solve_round<F: FourParamFamily>(
     }
 }
 
+/// What is wrong with a state; less is better.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Badness {
+    /// Knots that haven't settled.
+    unsettled: usize,
+    /// Segments that loop.
+    loops: usize,
+}
+
+impl Badness {
+    fn of<F: FourParamFamily>(system: &RunSystem<'_, F>) -> Self {
+        Badness {
+            unsettled: (0..system.knots.len()).filter(|&i| is_unsettled(system, i)).count(),
+            loops: (0..system.parameters.len()).filter(|&i| is_loop(system, i)).count(),
+        }
+    }
+}
+
+fn is_unsettled<F: FourParamFamily>(system: &RunSystem<'_, F>, knot: usize) -> bool {
+    !(system.knot_residual(knot) <= UNSETTLED)
+}
+
+fn is_loop<F: FourParamFamily>(system: &RunSystem<'_, F>, segment: usize) -> bool {
+    !(system.straightness(segment) * LOOP > 1.0)
+}
+
+/// Stages 2 and 3.
 struct Rescue {
     budget: usize,
     random: Random,
-    /// The sign of the run's first turn.
+    /// The sign of the run's first turn: seeds mirror with the run.
     sense: f64,
     iterations: usize,
 }
 
 impl Rescue {
+    fn new<F: FourParamFamily>(system: &RunSystem<'_, F>, budget: usize) -> Self {
+        let first = system.knots.iter().find(|knot| knot.turn.abs() > 1e-6);
+        let sense = first.map_or(1.0, |knot| knot.turn.signum());
+        Rescue { budget, random: Random(0), sense, iterations: 0 }
+    }
+
+    /// Leaves the best state found in `system`; returns its residual.
     fn run<F: FourParamFamily>(
         &mut self,
         system: &mut RunSystem<'_, F>,
         matrix: &mut BlockTridiagonal<2>,
-        mut residual: f64,
+        residual: f64,
     ) -> f64 {
-        let mut best = badness(system);
-        let mut attempt = 0;
-        while self.budget > 0 && (residual > SOLVED || best.loops > 0) {
-            let stretches = bad_stretches(system, 1 + attempt % 5);
-            let Some(&(from, to)) = stretches.get((attempt / 5) % stretches.len().max(1)) else {
-                break;
-            };
-            attempt += 1;
-            let Some(window) = self.restart(system, from, to, attempt) else {
-                continue;
-            };
-            let saved = (system.parameters.clone(), system.knots.clone());
-            system.adopt(&window, if from == to { 0 } else { from });
+        /// Where more of the knots than this are bad, mending has no good ground to stand on.
+        const MOSTLY: f64 = 0.4;
+        let n = system.knots.len();
+        let (mut best, mut least) = (system.state(), (Badness::of(system), residual));
+        if n > 4 && least.0.unsettled as f64 > MOSTLY * n as f64 {
+            self.grow(system);
+        }
+        loop {
+            self.mend(system);
             let outcome = self.newton(system, matrix, PLAIN);
-            let now = badness(system);
-            let better = (now.unsettled, now.loops) < (best.unsettled, best.loops)
-                || now == best && outcome.residual < 0.5 * residual && residual > SOLVED;
-            if better && outcome.residual.is_finite() {
-                (best, residual) = (now, outcome.residual);
-                attempt = 0;
+            let now = (Badness::of(system), outcome.residual);
+            if now < least {
+                (best, least) = (system.state(), now);
             } else {
-                (system.parameters, system.knots) = saved;
-                system.evaluate();
+                system.set_state(&best);
+            }
+            let (badness, residual) = least;
+            if self.budget == 0 || residual <= SOLVED && badness.loops == 0 {
+                return residual;
             }
         }
-        residual
+    }
+
+    /// Restarts bad stretches until all are good or one has had its share of attempts.
+    fn mend<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>) {
+        /// Attempts without success after which the run as a whole deserves a look.
+        const PATIENCE: usize = 60;
+        let mut attempt = 0;
+        while self.budget > 0 && attempt < PATIENCE {
+            let stretches = bad_stretches(system, 1 + attempt % 6);
+            let Some(&(from, to)) = stretches.get((attempt / 6) % stretches.len().max(1)) else {
+                return;
+            };
+            attempt += 1;
+            let Some(window) = self.restart(system, from, to, attempt) else { continue };
+            let (before, badness) = (system.state(), Badness::of(system));
+            system.adopt(&window, from);
+            system.evaluate();
+            self.settle_around(system, from, to);
+            if Badness::of(system) < badness {
+                attempt = 0;
+            } else {
+                system.set_state(&before);
+            }
+        }
     }
 
     /// Gives the stretch between two knots another winding and another start; returns it if it
@@ -161,26 +188,137 @@ impl Rescue {
         to: usize,
         attempt: usize,
     ) -> Option<RunSystem<'a, F>> {
-        let mut window = if from == to {
-            system.whole()
-        } else {
-            system.window(from, to)
-        };
+        /// Turns smaller than this (in radians) are never the wrong way round.
+        const GENTLE: f64 = 1.0;
+        const SHARE_TURNED: f64 = 0.3;
+        /// One attempt in this many builds the stretch knot by knot instead.
+        const GROWN: usize = 6;
+        let mut window = if from == to { system.clone() } else { system.window(from, to) };
+        if attempt.is_multiple_of(GROWN) && from != to {
+            self.grow_open(&mut window);
+            let residual = self.solve_window(&mut window).residual;
+            return (residual <= UNSETTLED).then_some(window);
+        }
         let amplitude = (attempt % 4) as f64 / 3.0;
         for knot in &mut window.knots {
-            let principal = crate::frame::wrap_angle(knot.turn);
-            knot.turn = principal;
-            if principal.abs() > 1.0 && self.random.next() < 0.3 {
-                knot.turn -= TAU.copysign(principal);
+            knot.turn = wrap_angle(knot.turn);
+            if knot.turn.abs() > GENTLE && self.random.next() < SHARE_TURNED {
+                turn_round(knot);
             }
         }
         for parameters in &mut window.parameters {
-            *parameters = [1.0, 4.0, 10.0, 40.0]
-                .map(|scale| self.sense * amplitude * scale * (2.0 * self.random.next() - 1.0));
+            *parameters = self.seed(amplitude);
         }
-        let mut matrix = BlockTridiagonal::new(window.knots.len(), window.is_closed());
-        let outcome = self.newton(&mut window, &mut matrix, WINDOW);
+        let outcome = self.solve_window(&mut window);
         (outcome.residual <= UNSETTLED).then_some(window)
+    }
+
+    /// Parameters of about the size that hard solutions have.
+    fn seed(&mut self, amplitude: f64) -> [f64; 4] {
+        const SIZES: [f64; 4] = [1.0, 4.0, 10.0, 40.0];
+        SIZES.map(|size| self.sense * amplitude * size * (2.0 * self.random.next() - 1.0))
+    }
+
+    /// Lets the surroundings of a mended stretch adapt to it.
+    fn settle_around<F: FourParamFamily>(
+        &mut self,
+        system: &mut RunSystem<'_, F>,
+        from: usize,
+        to: usize,
+    ) {
+        let n = system.knots.len();
+        let inside = if to > from { to - from } else { to + n - from };
+        if inside + 2 * REACH >= n {
+            let mut whole = system.clone();
+            self.solve_window(&mut whole);
+            system.adopt(&whole, 0);
+        } else {
+            let (from, to) = if system.is_closed() {
+                ((from + n - REACH) % n, (to + REACH) % n)
+            } else {
+                (from.saturating_sub(REACH), (to + REACH).min(n - 1))
+            };
+            let mut window = system.window(from, to);
+            self.solve_window(&mut window);
+            system.adopt(&window, from);
+        }
+        system.evaluate();
+    }
+
+    /// Builds the run knot by knot, from its first one.
+    fn grow<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>) {
+        let mut open = if system.is_closed() { system.opened() } else { system.clone() };
+        self.grow_open(&mut open);
+        let n = system.knots.len();
+        open.knots.truncate(n);
+        system.adopt(&open, 0);
+        system.evaluate();
+    }
+
+    /// Builds an open run knot by knot.
+    fn grow_open<F: FourParamFamily>(&mut self, open: &mut RunSystem<'_, F>) {
+        /// Attempts at adding one knot.
+        const ATTEMPTS: usize = 16;
+        open.parameters.fill([0.0; 4]);
+        open.knots.iter_mut().for_each(|knot| knot.turn = wrap_angle(knot.turn));
+        open.evaluate();
+        for last in 2usize..open.knots.len() {
+            let first = last.saturating_sub(REACH);
+            let mut straightest: Option<(f64, RunSystem<'_, F>)> = None;
+            for attempt in 0..ATTEMPTS {
+                let mut window = open.window(first, last);
+                if last + 1 < open.knots.len() {
+                    window.free_end();
+                }
+                self.vary(&mut window, attempt);
+                let outcome = self.solve_window(&mut window);
+                if outcome.residual <= UNSETTLED {
+                    let segments = 0..window.parameters.len();
+                    let least = segments.map(|i| window.straightness(i)).fold(1.0, f64::min);
+                    if straightest.as_ref().is_none_or(|(best, _)| least > *best) {
+                        straightest = Some((least, window));
+                    }
+                    if least * LOOP > 1.0 {
+                        break;
+                    }
+                }
+                if self.budget == 0 {
+                    break;
+                }
+            }
+            if let Some((_, window)) = straightest {
+                open.adopt(&window, first);
+            }
+            open.evaluate();
+        }
+    }
+
+    /// How the end of a growing run is varied from one attempt to the next: first all windings of
+    /// its last three knots, then the last few segments anew from straight, then from seeds.
+    fn vary<F: FourParamFamily>(&mut self, window: &mut RunSystem<'_, F>, attempt: usize) {
+        let (knots, segments) = (window.knots.len(), window.parameters.len());
+        if attempt < 8 {
+            for back in (0..3).filter(|back| attempt >> back & 1 == 1 && knots > back + 2) {
+                turn_round(&mut window.knots[knots - 2 - back]);
+            }
+            return;
+        }
+        let anew = 2 + attempt % 4;
+        let seeded = attempt >= 12;
+        for i in segments.saturating_sub(anew)..segments {
+            window.parameters[i] = if seeded { self.seed(1.0) } else { [0.0; 4] };
+        }
+        for i in knots.saturating_sub(anew + 1).max(1)..knots - 1 {
+            window.knots[i].turn = wrap_angle(window.knots[i].turn);
+            if seeded && self.random.next() < 0.4 {
+                turn_round(&mut window.knots[i]);
+            }
+        }
+    }
+
+    fn solve_window<F: FourParamFamily>(&mut self, window: &mut RunSystem<'_, F>) -> Outcome {
+        let mut matrix = BlockTridiagonal::new(window.knots.len(), window.is_closed());
+        self.newton(window, &mut matrix, WINDOW)
     }
 
     fn newton<F: FourParamFamily>(
@@ -197,18 +335,10 @@ impl Rescue {
     }
 }
 
-fn badness<F: FourParamFamily>(system: &RunSystem<'_, F>) -> Badness {
-    let settled = |i: &usize| system.knot_residual(*i) <= UNSETTLED;
-    Badness {
-        unsettled: (0..system.knots.len()).filter(|i| !settled(i)).count(),
-        loops: (0..system.parameters.len())
-            .filter(|&i| is_loop(system, i))
-            .count(),
-    }
-}
-
-fn is_loop<F: FourParamFamily>(system: &RunSystem<'_, F>, segment: usize) -> bool {
-    !(system.straightness(segment) * LOOP > 1.0)
+/// Changes the winding at a knot: from the natural one to the other way round, or back.
+fn turn_round(knot: &mut SystemKnot) {
+    let natural = wrap_angle(knot.turn);
+    knot.turn = if knot.turn == natural { natural - TAU.copysign(natural) } else { natural };
 }
 
 /// The stretches around bad knots and segments, with a margin of so many knots on either side, as
@@ -218,42 +348,31 @@ fn bad_stretches<F: FourParamFamily>(
     margin: usize,
 ) -> Vec<(usize, usize)> {
     let n = system.knots.len();
-    let mut bad = vec![false; n];
-    for i in 0..n {
-        bad[i] |= !(system.knot_residual(i) <= UNSETTLED);
-    }
-    for segment in 0..system.parameters.len() {
-        if is_loop(system, segment) {
-            bad[segment] = true;
-            bad[(segment + 1) % n] = true;
-        }
-    }
     let closed = system.is_closed();
-    let mut near = bad.clone();
+    let mut near: Vec<bool> = (0..n).map(|i| is_unsettled(system, i)).collect();
+    for segment in (0..system.parameters.len()).filter(|&i| is_loop(system, i)) {
+        near[segment] = true;
+        near[(segment + 1) % n] = true;
+    }
     for _ in 0..margin {
         let before = near.clone();
         for i in 0..n {
-            let neighbour = |j: usize, inside: bool| (closed || inside) && before[j];
-            near[i] |= neighbour((i + n - 1) % n, i > 0) || neighbour((i + 1) % n, i + 1 < n);
+            near[i] |= (closed || i > 0) && before[(i + n - 1) % n]
+                || (closed || i + 1 < n) && before[(i + 1) % n];
         }
     }
-    if near.iter().all(|&bad| bad) {
+    if near.iter().all(|&near| near) {
         return vec![if closed { (0, 0) } else { (0, n - 1) }];
     }
-    let mut stretches = Vec::new();
-    for i in 0..n {
-        let starts = near[i] && !((closed || i > 0) && near[(i + n - 1) % n]);
-        if starts {
-            let mut length = 1;
-            while near[(i + length) % n] && (closed || i + length < n) {
-                length += 1;
-            }
-            if length > 1 {
-                stretches.push((i, (i + length - 1) % n));
-            }
-        }
-    }
-    stretches
+    let starts = |i: usize| near[i] && !((closed || i > 0) && near[(i + n - 1) % n]);
+    (0..n)
+        .filter(|&i| starts(i))
+        .map(|i| {
+            let more = (1..n).take_while(|d| near[(i + d) % n] && (closed || i + d < n)).count();
+            (i, (i + more) % n)
+        })
+        .filter(|(from, to)| from != to)
+        .collect()
 }
 
 /// A fixed sequence of numbers in [0, 1) (splitmix64).

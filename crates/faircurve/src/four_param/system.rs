@@ -80,29 +80,36 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
         }
     }
 
-    /// The segments' independent constraints, for cleaning up rounding.
-    pub(super) fn constraints(&self, segment: usize) -> SegmentConstraints {
+    /// Removes from the parameters what rounding has left of quantities that are zero by Table 7.1.
+    pub(super) fn clean(&mut self) {
+        /// What counts as rounding, in radians at the chord; residuals don't notice it.
+        const NEGLIGIBLE: f64 = 1e-12;
+        for i in 0..self.parameters.len() {
+            let mut clean = self.parameters[i];
+            self.constraints(i).enforce(&mut clean);
+            let change = (0..4)
+                .fold(0.0, |change: f64, j| change.max((clean[j] - self.parameters[i][j]).abs()));
+            if change <= NEGLIGIBLE * self.straightness(i) {
+                self.parameters[i] = clean;
+            }
+        }
+    }
+
+    /// The zero conditions on a segment.
+    fn constraints(&self, segment: usize) -> SegmentConstraints {
         let n = self.knots.len();
-        let conditions = |knot: &SystemKnot| -> Vec<Condition> {
-            knot.equations
-                .iter()
-                .filter_map(|equation| match equation {
-                    Equation::Condition(condition) => Some(*condition),
-                    _ => None,
-                })
-                .collect()
+        let conditions = |knot: usize| {
+            self.knots[knot].equations.into_iter().filter_map(|equation| match equation {
+                Equation::Condition(condition) => Some(condition),
+                _ => None,
+            })
         };
-        SegmentConstraints::between(
-            &conditions(&self.knots[segment]),
-            &conditions(&self.knots[(segment + 1) % n]),
-        )
+        SegmentConstraints::between(conditions(segment), conditions((segment + 1) % n))
     }
 
     /// Residual of one knot: the largest of its mismatches and equations.
     pub(super) fn knot_residual(&self, i: usize) -> f64 {
-        let values = self.knots[i]
-            .equations
-            .map(|equation| self.value(i, equation).abs());
+        let values = self.knots[i].equations.map(|equation| self.value(i, equation).abs());
         let [direction, curvature] = self.mismatch[i].map(f64::abs);
         direction.max(curvature).max(values[0]).max(values[1])
     }
@@ -118,17 +125,16 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
         if self.closed || from > 0 {
             let before = if from > 0 { from - 1 } else { n - 1 };
             let jets = &self.responses[before].jets;
-            knots[0].equations = [
-                Equation::Direction(self.knots[from].turn - jets[1]),
-                Equation::Curvature(jets[3] / self.chords[before]),
-            ];
+            let direction = Equation::Direction(self.knots[from].turn - jets[1]);
+            let curvature = Equation::Curvature(jets[3] / self.chords[before]);
+            knots[0].equations = rim(knots[0].equations, Side::Right, [direction, curvature]);
         }
         if self.closed || to + 1 < n {
             let jets = &self.responses[to].jets;
-            knots[count].equations = [
-                Equation::Direction(self.knots[to].turn - jets[0]),
-                Equation::Curvature(jets[2] / self.chords[to]),
-            ];
+            let direction = Equation::Direction(self.knots[to].turn - jets[0]);
+            let curvature = Equation::Curvature(jets[2] / self.chords[to]);
+            knots[count].equations =
+                rim(knots[count].equations, Side::Left, [direction, curvature]);
         }
         RunSystem {
             family: self.family,
@@ -152,17 +158,31 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
         }
     }
 
-    /// A copy of the whole system.
-    pub(super) fn whole(&self) -> Self {
-        RunSystem {
-            family: self.family,
-            knots: self.knots.clone(),
-            chords: self.chords.clone(),
-            parameters: self.parameters.clone(),
-            responses: self.responses.clone(),
-            mismatch: self.mismatch.clone(),
-            closed: self.closed,
+    /// Lets the run end freely at its last knot.
+    pub(super) fn free_end(&mut self) {
+        if let Some(last) = self.knots.last_mut() {
+            last.equations = table::END.map(Equation::Condition);
         }
+    }
+
+    /// A closed run cut at its first knot, which stands at both free ends.
+    pub(super) fn opened(&self) -> Self {
+        let mut open = self.window(0, 0);
+        open.knots[0].equations = table::START.map(Equation::Condition);
+        open.free_end();
+        open
+    }
+
+    /// What Newton's method changes, to come back to.
+    pub(super) fn state(&self) -> (Vec<[f64; 4]>, Vec<f64>) {
+        (self.parameters.clone(), self.knots.iter().map(|knot| knot.turn).collect())
+    }
+
+    /// Comes back to a state.
+    pub(super) fn set_state(&mut self, state: &(Vec<[f64; 4]>, Vec<f64>)) {
+        self.parameters.clone_from(&state.0);
+        self.knots.iter_mut().zip(&state.1).for_each(|(knot, turn)| knot.turn = *turn);
+        self.evaluate();
     }
 
     /// Whether the last knot joins the first.
@@ -179,8 +199,7 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
     pub(super) fn evaluate(&mut self) {
         let n = self.knots.len();
         self.responses.clear();
-        self.responses
-            .extend(self.parameters.iter().map(|p| self.family.respond(*p)));
+        self.responses.extend(self.parameters.iter().map(|p| self.family.respond(*p)));
         for i in 0..n {
             let (left, right) = neighbours(i, n, self.closed);
             self.mismatch[i] = match (left, right) {
@@ -235,10 +254,20 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
     /// (h/chord)^(order + 1): from unit chord to the knot's own scale.
     fn weight(&self, knot: usize, segment: usize, order: usize) -> f64 {
         let ratio = self.knots[knot].h / self.chords[segment];
-        if order == 1 {
-            ratio * ratio
-        } else {
-            ratio * ratio * ratio
+        if order == 1 { ratio * ratio } else { ratio * ratio * ratio }
+    }
+}
+
+impl<F> Clone for RunSystem<'_, F> {
+    fn clone(&self) -> Self {
+        RunSystem {
+            family: self.family,
+            knots: self.knots.clone(),
+            chords: self.chords.clone(),
+            parameters: self.parameters.clone(),
+            responses: self.responses.clone(),
+            mismatch: self.mismatch.clone(),
+            closed: self.closed,
         }
     }
 }
@@ -253,8 +282,11 @@ impl<F: FourParamFamily> System<2> for RunSystem<'_, F> {
             let (mut lower, mut diagonal, mut upper) =
                 ([[0.0; 2]; 2], [[0.0; 2]; 2], [[0.0; 2]; 2]);
             let mut values = [0.0; 2];
+            let mut worst = self.mismatch[i][0].abs().max(self.mismatch[i][1].abs());
             for (row, equation) in self.knots[i].equations.into_iter().enumerate() {
-                values[row] = -self.value(i, equation);
+                let value = self.value(i, equation);
+                worst = if value.is_nan() { value } else { worst.max(value.abs()) };
+                values[row] = -value;
                 let condition = match equation {
                     // Unknowns are changes of the right side (of the left one at an open end).
                     Equation::Direction(_) => {
@@ -286,10 +318,7 @@ impl<F: FourParamFamily> System<2> for RunSystem<'_, F> {
                     let weight = signs[1] * self.weight(i, r, order);
                     let by_jets = self.responses[r].derivatives_by_jets[order - 1];
                     let after = if i + 1 == n { 0 } else { i + 1 };
-                    let to_end = [
-                        by_jets[1],
-                        by_jets[3] * self.chords[r] / self.knots[after].h,
-                    ];
+                    let to_end = [by_jets[1], by_jets[3] * self.chords[r] / self.knots[after].h];
                     diagonal[row][0] -= weight * by_jets[0];
                     diagonal[row][1] += weight * by_jets[2] * self.chords[r] / self.knots[i].h;
                     upper[row][0] += weight * to_end[0];
@@ -299,10 +328,7 @@ impl<F: FourParamFamily> System<2> for RunSystem<'_, F> {
                             + to_end[1] * self.mismatch[after][1]);
                 }
             }
-            residual = residual.max(self.knot_residual(i));
-            if self.knot_residual(i).is_nan() {
-                residual = f64::NAN;
-            }
+            residual = if worst.is_nan() { f64::NAN } else { residual.max(worst) };
             matrix.lower[i] = lower;
             matrix.diagonal[i] = diagonal;
             matrix.upper[i] = upper;
@@ -341,13 +367,23 @@ impl<F: FourParamFamily> System<2> for RunSystem<'_, F> {
     }
 }
 
+/// The equations of a knot at a window's rim: its own that concern the side within alone, filled up
+/// with what is held.
+fn rim(own: [Equation; 2], within: Side, held: [Equation; 2]) -> [Equation; 2] {
+    let mut equations: Vec<Equation> = own
+        .into_iter()
+        .filter(|equation| match equation {
+            Equation::Condition(Condition::Zero(side, _)) => *side == within,
+            _ => false,
+        })
+        .collect();
+    equations.extend(held);
+    [equations[0], equations[1]]
+}
+
 /// The segments before and after knot `i`.
 fn neighbours(i: usize, n: usize, closed: bool) -> (Option<usize>, Option<usize>) {
-    let left = if i > 0 {
-        Some(i - 1)
-    } else {
-        closed.then_some(n - 1)
-    };
+    let left = if i > 0 { Some(i - 1) } else { closed.then_some(n - 1) };
     let right = if i + 1 < n || closed { Some(i) } else { None };
     (left, right)
 }
@@ -355,11 +391,7 @@ fn neighbours(i: usize, n: usize, closed: bool) -> (Option<usize>, Option<usize>
 /// Order of the derivative that a condition is about, and the signs of its left and right side.
 fn condition_terms(condition: Condition) -> (usize, [f64; 2]) {
     let order = |quantity| {
-        if quantity == Quantity::FirstDerivative {
-            1
-        } else {
-            2
-        }
+        if quantity == Quantity::FirstDerivative { 1 } else { 2 }
     };
     match condition {
         Condition::Continuous(quantity) => (order(quantity), [-1.0, 1.0]),
@@ -384,35 +416,26 @@ fn equations(
     use Quantity::{FirstDerivative, SecondDerivative};
     let knot = &run.knots[i];
     let join = knot.join;
-    let turn = run.turning(i);
+    let turn = knot.turn;
     // A given direction as an angle from each chord; together they may choose another winding.
     let from_chord = |segment: usize, tangent: f64| direction(run.chord(segment)) - tangent;
     let given_direction = |tangent: f64| match (left, right) {
         (Some(l), Some(r)) => {
-            let (arrive, leave) = (
-                -wrap_angle(from_chord(l, tangent)),
-                wrap_angle(from_chord(r, tangent)),
-            );
+            let (arrive, leave) =
+                (-wrap_angle(from_chord(l, tangent)), wrap_angle(from_chord(r, tangent)));
             (Equation::Direction(leave), arrive + leave)
         }
-        (None, Some(r)) => (
-            Equation::Direction(wrap_angle(from_chord(r, tangent))),
-            turn,
-        ),
-        (Some(l), None) => (
-            Equation::Direction(wrap_angle(-from_chord(l, tangent))),
-            turn,
-        ),
+        (None, Some(r)) => (Equation::Direction(wrap_angle(from_chord(r, tangent))), turn),
+        (Some(l), None) => (Equation::Direction(wrap_angle(-from_chord(l, tangent))), turn),
         (None, None) => (Equation::Direction(0.0), turn),
     };
     let is_end = left.is_none() || right.is_none();
     let rows = match (left, right, join) {
         (None, _, _) => table::START,
         (_, None, _) => table::END,
-        (_, _, Join::G2) if knot.curvature.is_some() => [
-            Condition::Continuous(SecondDerivative),
-            Condition::Continuous(FirstDerivative),
-        ],
+        (_, _, Join::G2) if knot.curvature.is_some() => {
+            [Condition::Continuous(SecondDerivative), Condition::Continuous(FirstDerivative)]
+        }
         (_, _, join) => {
             let [_, _, first, second] = table::conditions(join);
             [first, second]

@@ -193,11 +193,7 @@ fn invert<const B: usize>(matrix: &Block<B>) -> Block<B> {
         inverse.swap(column, best);
         let mut pivot = a[column][column];
         if pivot.abs() <= TINY_PIVOT * largest {
-            pivot = if largest > 0.0 {
-                TINY_PIVOT * largest
-            } else {
-                1.0
-            };
+            pivot = if largest > 0.0 { TINY_PIVOT * largest } else { 1.0 };
         }
         let reciprocal = 1.0 / pivot;
         for c in 0..B {
@@ -222,9 +218,8 @@ mod tests {
     use super::*;
 
     fn noise(seed: &mut u64) -> f64 {
-        *seed = seed
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        *seed =
+            seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
@@ -253,11 +248,8 @@ mod tests {
             system.right[i] = row;
         }
         system.solve();
-        let errors = system
-            .right
-            .iter()
-            .zip(&x)
-            .flat_map(|(a, b)| (0..B).map(|r| (a[r] - b[r]).abs()));
+        let errors =
+            system.right.iter().zip(&x).flat_map(|(a, b)| (0..B).map(|r| (a[r] - b[r]).abs()));
         errors.fold(0.0, f64::max)
     }
 

@@ -52,10 +52,7 @@ pub fn newton<const B: usize>(
     let mut iterations = 0;
     loop {
         let residual = system.linearize(matrix);
-        let outcome = Outcome {
-            iterations,
-            residual,
-        };
+        let outcome = Outcome { iterations, residual };
         if residual <= DONE || iterations >= limits.iterations || !residual.is_finite() {
             return outcome;
         }
@@ -101,10 +98,7 @@ mod tests {
         }
 
         fn advance(&mut self, step: &[[f64; 1]]) -> f64 {
-            self.x
-                .iter_mut()
-                .zip(step)
-                .for_each(|(x, step)| *x += step[0]);
+            self.x.iter_mut().zip(step).for_each(|(x, step)| *x += step[0]);
             step.iter().fold(0.0, |size, step| size.max(step[0].abs()))
         }
     }
@@ -114,26 +108,11 @@ mod tests {
         let n = 9;
         let exact: Vec<f64> = (1..=n).map(|i| f64::from(i).sqrt()).collect();
         let around = |i: usize| exact[(i + 8) % 9] + exact[(i + 1) % 9];
-        let right = (0..9)
-            .map(|i| exact[i] * exact[i] + around(i) / 100.0)
-            .collect();
-        let mut system = Squares {
-            x: vec![1.0; 9],
-            right,
-        };
+        let right = (0..9).map(|i| exact[i] * exact[i] + around(i) / 100.0).collect();
+        let mut system = Squares { x: vec![1.0; 9], right };
         let mut matrix = BlockTridiagonal::new(9, true);
-        let outcome = newton(
-            &mut system,
-            &mut matrix,
-            Limits {
-                iterations: 20,
-                patience: 5,
-            },
-        );
-        assert!(
-            outcome.residual < 1e-14 && outcome.iterations <= 8,
-            "{outcome:?}"
-        );
+        let outcome = newton(&mut system, &mut matrix, Limits { iterations: 20, patience: 5 });
+        assert!(outcome.residual < 1e-14 && outcome.iterations <= 8, "{outcome:?}");
         for (x, exact) in system.x.iter().zip(&exact) {
             assert!((x - exact).abs() < 1e-14);
         }

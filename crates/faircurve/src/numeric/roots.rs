@@ -17,12 +17,8 @@ pub fn roots_between(coefficients: &[f64], from: f64, to: f64) -> Vec<f64> {
         return Vec::new();
     }
     let coefficients = &coefficients[..=degree];
-    let derivative: Vec<f64> = coefficients
-        .iter()
-        .enumerate()
-        .skip(1)
-        .map(|(i, c)| c * i as f64)
-        .collect();
+    let derivative: Vec<f64> =
+        coefficients.iter().enumerate().skip(1).map(|(i, c)| c * i as f64).collect();
     let mut breaks = vec![from];
     breaks.extend(roots_between(&derivative, from, to));
     breaks.push(to);
@@ -79,11 +75,7 @@ pub fn monotone_root(f: impl Fn(f64) -> f64, from: f64, to: f64) -> Option<f64> 
             (high, f_high) = (x, f_x);
         }
     }
-    Some(if f_low.abs() < f_high.abs() {
-        low
-    } else {
-        high
-    })
+    Some(if f_low.abs() < f_high.abs() { low } else { high })
 }
 
 #[cfg(test)]

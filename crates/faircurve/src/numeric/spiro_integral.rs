@@ -37,9 +37,9 @@ impl SpiroMoments {
 /// The spiro integral of eq. 8.1: curvature k₀ and its derivatives k₁, k₂, k₃ are those at the
 /// middle of a segment of arc length 1.
 ///
-/// Absolute error at most 1e-15 + 2e-16·[wildness]`(k)`, up to a wildness of 10⁶. Such a curve is
-/// wound up to little more than a point; one that is wilder still counts as a point, and the
-/// result is 0. Arguments that aren't finite give NaN.
+/// Absolute error at most 1e-15 + 2e-16·[wildness]`(k)`, up to a wildness of 10⁶. Beyond that the
+/// curve is too wound up to be worth integrating, and the result is 0. Arguments that aren't
+/// finite give NaN.
 ///
 /// ```
 /// use faircurve::numeric::spiro_integral::spiro_integral;
@@ -47,7 +47,8 @@ impl SpiroMoments {
 /// assert!((arc.re - 2.0 / std::f64::consts::PI).abs() < 1e-15);
 /// ```
 pub fn spiro_integral(k: [f64; 4]) -> Complex64 {
-    spiro_moments(k).integral()
+    // Inlined, so that the moments beyond the first cost nothing.
+    moments(k).integral()
 }
 
 /// A bound of the curvature over the segment: |k₀| + |k₁|/2 + |k₂|/8 + |k₃|/48.
@@ -82,8 +83,12 @@ const WILDEST: f64 = 1e6;
 
 /// All five moments of eq. 8.1's integrand. M₀ has the error stated at [`spiro_integral`]; the
 /// others, which serve as derivatives, are good to 2e-14 + 2e-16·[wildness]`(k)`.
-#[inline]
 pub fn spiro_moments(k: [f64; 4]) -> SpiroMoments {
+    moments(k)
+}
+
+#[inline(always)]
+fn moments(k: [f64; 4]) -> SpiroMoments {
     let growth = growth(k);
     if growth <= GROWTH_8 {
         single_panel(&GAUSS_8, k)
@@ -96,7 +101,7 @@ pub fn spiro_moments(k: [f64; 4]) -> SpiroMoments {
     }
 }
 
-/// The rest of [`spiro_moments`], apart so that the common case stays small.
+/// The rest of [`moments`], apart so that the common case stays small.
 #[inline(never)]
 fn wild_moments(k: [f64; 4]) -> SpiroMoments {
     let wildness = wildness(k);
@@ -127,10 +132,7 @@ fn single_panel<const N: usize>(rule: &PairedRule<N>, k: [f64; 4]) -> SpiroMomen
         let s2 = s * s;
         let (sin_e, cos_e) = sin_cos(s2 * (k1 + k3 * s2));
         let (sin_o, cos_o) = sin_cos(s * (k0 + k2 * s2));
-        let (even, odd) = (
-            rule.pair_weights[i] * cos_o,
-            rule.pair_weights[i] * sin_o * s,
-        );
+        let (even, odd) = (rule.pair_weights[i] * cos_o, rule.pair_weights[i] * sin_o * s);
         even_cos[i] = even * cos_e;
         even_sin[i] = even * sin_e;
         odd_cos[i] = odd * cos_e;
@@ -205,12 +207,7 @@ pub fn curvature_jet(k: [f64; 4], s: f64) -> [f64; 4] {
 pub fn sub_parameters(k: [f64; 4], middle: f64, width: f64) -> [f64; 4] {
     let jet = curvature_jet(k, middle);
     let w2 = width * width;
-    [
-        jet[0] * width,
-        jet[1] * w2,
-        jet[2] * w2 * width,
-        jet[3] * w2 * w2,
-    ]
+    [jet[0] * width, jet[1] * w2, jet[2] * w2 * width, jet[3] * w2 * w2]
 }
 
 /// ∫ e^{iθ(s)} ds from `from` to `to` (eq. 8.3).
@@ -268,9 +265,7 @@ mod tests {
 
     #[test]
     fn error_stays_below_its_bound() {
-        for wild in [
-            1e-6, 1e-3, 0.1, 1.0, 2.5, 5.0, 10.0, 16.0, 24.0, 58.0, 200.0, 5000.0,
-        ] {
+        for wild in [1e-6, 1e-3, 0.1, 1.0, 2.5, 5.0, 10.0, 16.0, 24.0, 58.0, 200.0, 5000.0] {
             for k in arguments(wild) {
                 let (m, exact) = (spiro_moments(k), fine(k));
                 for j in 0..5 {
@@ -320,26 +315,15 @@ mod tests {
     fn arcs_have_their_closed_form() {
         for i in 0..2000 {
             let turn = f64::from(i) * 0.37;
-            let exact = if turn == 0.0 {
-                1.0
-            } else {
-                (turn / 2.0).sin() / (turn / 2.0)
-            };
+            let exact = if turn == 0.0 { 1.0 } else { (turn / 2.0).sin() / (turn / 2.0) };
             let arc = spiro_integral([turn, 0.0, 0.0, 0.0]);
-            assert!(
-                (arc - exact).norm() < 1e-15 + 2e-16 * turn,
-                "{turn}: {arc} {exact}"
-            );
+            assert!((arc - exact).norm() < 1e-15 + 2e-16 * turn, "{turn}: {arc} {exact}");
         }
     }
 
     #[test]
     fn hopeless_arguments_end_in_bounded_time_and_numbers() {
-        for k in [
-            [1e300, 0.0, 0.0, 0.0],
-            [0.0, 1e9, -1e12, 1e15],
-            [f64::MAX; 4],
-        ] {
+        for k in [[1e300, 0.0, 0.0, 0.0], [0.0, 1e9, -1e12, 1e15], [f64::MAX; 4]] {
             assert_eq!(spiro_integral(k), Complex64::ZERO, "{k:?}");
         }
         assert!(spiro_integral([2e6, 0.0, 0.0, 0.0]).norm() < 1e-6);

@@ -55,10 +55,7 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     let cosine = (1.0 + c0 * q) + rest * q2;
     // An odd number of half turns negates both.
     let sign = shifted.to_bits() << 63;
-    (
-        f64::from_bits(sine.to_bits() ^ sign),
-        f64::from_bits(cosine.to_bits() ^ sign),
-    )
+    (f64::from_bits(sine.to_bits() ^ sign), f64::from_bits(cosine.to_bits() ^ sign))
 }
 
 #[cfg(test)]

@@ -24,14 +24,7 @@ impl<F: TwoParamFamily> TwoParamSpline<F> {
     pub fn solve_run(&self, run: &Run) -> RunSolution {
         let mut system = TangentSystem::new(&self.family, run);
         let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
-        let outcome = newton(
-            &mut system,
-            &mut matrix,
-            Limits {
-                iterations: 60,
-                patience: 30,
-            },
-        );
+        let outcome = newton(&mut system, &mut matrix, Limits { iterations: 60, patience: 30 });
         let n = run.knots.len();
         let segments = (0..run.segment_count())
             .map(|i| {
@@ -111,7 +104,7 @@ impl<'a, F: TwoParamFamily> TangentSystem<'a, F> {
         let mut system = TangentSystem {
             family,
             chords: (0..segments).map(|i| run.chord(i).hypot()).collect(),
-            turns: (0..n).map(|i| run.turning(i)).collect(),
+            turns: run.knots.iter().map(|knot| knot.turn).collect(),
             equations,
             tangents: vec![0.0; n],
             closed: run.closed,
@@ -128,20 +121,12 @@ impl<'a, F: TwoParamFamily> TangentSystem<'a, F> {
         let interior = |i: usize| run.closed || (i > 0 && i + 1 < n);
         for i in (0..n).filter(|&i| interior(i)) {
             let (before, after) = ((i + n - 1) % n, (i + 1) % n);
-            let (a, b, c) = (
-                run.knots[before].point,
-                run.knots[i].point,
-                run.knots[after].point,
-            );
+            let (a, b, c) = (run.knots[before].point, run.knots[i].point, run.knots[after].point);
             let tangent = wrap_angle(direction(run.chord(i)) - circle_tangent(a, b, c));
             self.tangents[i] = tangent;
         }
         if !run.closed {
-            self.tangents[0] = if n > 2 {
-                self.turns[1] - self.tangents[1]
-            } else {
-                0.0
-            };
+            self.tangents[0] = if n > 2 { self.turns[1] - self.tangents[1] } else { 0.0 };
             self.tangents[n - 1] = if n > 2 { self.tangents[n - 2] } else { 0.0 };
             for i in [0, n - 1] {
                 if let Equation::Direction(angle) = self.equations[i] {
@@ -158,11 +143,8 @@ impl<'a, F: TwoParamFamily> TangentSystem<'a, F> {
     fn angles(&self, segment: usize) -> ChordAngles {
         let end = (segment + 1) % self.tangents.len();
         let is_last = !self.closed && segment + 1 == self.chords.len();
-        let theta1 = if is_last {
-            self.tangents[end]
-        } else {
-            self.turns[end] - self.tangents[end]
-        };
+        let theta1 =
+            if is_last { self.tangents[end] } else { self.turns[end] - self.tangents[end] };
         ChordAngles::new(self.tangents[segment], theta1)
     }
 
@@ -184,11 +166,7 @@ impl<'a, F: TwoParamFamily> TangentSystem<'a, F> {
 }
 
 fn ignored(knot: usize) -> Adaptation {
-    Adaptation {
-        place: Place::Knot(knot),
-        asked: "curvature",
-        got: "ignored",
-    }
+    Adaptation { place: Place::Knot(knot), asked: "curvature", got: "ignored" }
 }
 
 impl<F: TwoParamFamily> System<1> for TangentSystem<'_, F> {
@@ -201,16 +179,8 @@ impl<F: TwoParamFamily> System<1> for TangentSystem<'_, F> {
         }
         let mut residual = 0.0f64;
         for i in 0..n {
-            let left = if i > 0 {
-                Some(i - 1)
-            } else {
-                self.closed.then_some(n - 1)
-            };
-            let right = if i + 1 < n || self.closed {
-                Some(i)
-            } else {
-                None
-            };
+            let left = if i > 0 { Some(i - 1) } else { self.closed.then_some(n - 1) };
+            let right = if i + 1 < n || self.closed { Some(i) } else { None };
             // Signed effect of the unknowns: it is theta0 to the right, turn − theta1 to the left
             // (theta1 itself at an open end).
             let (mut lower, mut diagonal, mut upper, value);
@@ -259,10 +229,7 @@ impl<F: TwoParamFamily> System<1> for TangentSystem<'_, F> {
                     };
                     let chord = self.chords[segment];
                     let own = Turned::new(self.responses[segment].value[end], 1.0, 1.0);
-                    let wanted = Turned {
-                        num: target * chord,
-                        den: 1.0,
-                    };
+                    let wanted = Turned { num: target * chord, den: 1.0 };
                     value = (wanted.den * own.num - wanted.num * own.den)
                         .atan2(wanted.den * own.den + wanted.num * own.num);
                     let by = self.responses[segment].by_angle[end]
@@ -276,11 +243,7 @@ impl<F: TwoParamFamily> System<1> for TangentSystem<'_, F> {
                     }
                 }
             }
-            residual = if value.is_nan() {
-                f64::NAN
-            } else {
-                residual.max(value.abs())
-            };
+            residual = if value.is_nan() { f64::NAN } else { residual.max(value.abs()) };
             matrix.lower[i] = [[lower]];
             matrix.diagonal[i] = [[diagonal]];
             matrix.upper[i] = [[upper]];
@@ -312,10 +275,7 @@ struct Turned {
 
 impl Turned {
     fn new(end: EndCurvature, own: f64, other: f64) -> Self {
-        Turned {
-            num: end.num * other,
-            den: end.den * own,
-        }
+        Turned { num: end.num * other, den: end.den * own }
     }
 
     /// Derivative of the vector's angle.

@@ -26,9 +26,7 @@ pub const INFO: SplineInfo = SplineInfo {
     params: &[ParamSpec {
         name: "end",
         summary: "what holds at free ends: a circular arc, or zero curvature",
-        kind: ParamKind::Choice {
-            options: &["arc", "zero-curvature"],
-        },
+        kind: ParamKind::Choice { options: &["arc", "zero-curvature"] },
     }],
     default_join: Join::G2,
     joins: &[Join::Corner, Join::G1, Join::G2],
@@ -53,9 +51,7 @@ pub struct Euler {
 
 impl Default for Euler {
     fn default() -> Self {
-        Euler {
-            end: NaturalEnd::Arc,
-        }
+        Euler { end: NaturalEnd::Arc }
     }
 }
 
@@ -103,10 +99,7 @@ impl Spline for Euler {
 
     fn solve_run(&self, run: &Run) -> RunSolution {
         let solved = TwoParamSpline::new(*self).solve_run(run);
-        let loops = solved
-            .segments
-            .iter()
-            .any(|s| s.length() > LOOP * s.chord_length());
+        let loops = solved.segments.iter().any(|s| s.length() > LOOP * s.chord_length());
         if solved.residual <= SOLVED && !loops {
             return solved;
         }
@@ -209,11 +202,7 @@ fn fit(angles: ChordAngles) -> Option<Fit> {
         }
         let newton = -error / slope;
         let halley = newton / (1.0 + 0.5 * newton * bend / slope);
-        let step = if (halley / newton - 1.0).abs() < 0.5 {
-            halley
-        } else {
-            newton
-        };
+        let step = if (halley / newton - 1.0).abs() < 0.5 { halley } else { newton };
         if !(step.abs() > 1e-15 * (1.0 + k1.abs())) {
             break;
         }
@@ -240,18 +229,12 @@ impl Fit {
             let curvature = self.k0 + s * self.k1;
             let by_angle = k1_by.map(|k1_by| {
                 let log_c = by_k0.re + by_k1.re * k1_by;
-                EndCurvature {
-                    num: c * (1.0 + s * k1_by + curvature * log_c),
-                    den: 0.0,
-                }
+                EndCurvature { num: c * (1.0 + s * k1_by + curvature * log_c), den: 0.0 }
             });
             (EndCurvature::finite(c * curvature), by_angle)
         };
         let (start, end) = (at_end(-0.5), at_end(0.5));
-        EndCurvatures {
-            value: [start.0, end.0],
-            by_angle: [start.1, end.1],
-        }
+        EndCurvatures { value: [start.0, end.0], by_angle: [start.1, end.1] }
     }
 }
 

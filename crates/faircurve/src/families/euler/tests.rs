@@ -15,14 +15,10 @@ fn the_fit_has_the_angles_asked_for_over_the_whole_square() {
             let chord = spiral.chord();
             let found = spiral.chord_angles();
             // The direction of a short chord is known only to rounding over its length.
-            let error = (found.theta0 - angles.theta0)
-                .abs()
-                .max((found.theta1 - angles.theta1).abs());
+            let error =
+                (found.theta0 - angles.theta0).abs().max((found.theta1 - angles.theta1).abs());
             worst = worst.max(error * chord.length);
-            assert!(
-                error * chord.length < 1e-14,
-                "{angles:?} {found:?} {spiral:?}"
-            );
+            assert!(error * chord.length < 1e-14, "{angles:?} {found:?} {spiral:?}");
         }
     }
     println!("{worst:e}");
@@ -44,10 +40,7 @@ fn derivatives_agree_with_differences() {
             for end in 0..2 {
                 let slope = (up.value[end].num - down.value[end].num) / (2.0 * h);
                 let claimed = exact.by_angle[end][angle].num;
-                assert!(
-                    (slope - claimed).abs() < 1e-7,
-                    "{theta0} {theta1} {end} {angle}"
-                );
+                assert!((slope - claimed).abs() < 1e-7, "{theta0} {theta1} {end} {angle}");
             }
         }
     }

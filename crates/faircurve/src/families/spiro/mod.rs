@@ -106,13 +106,7 @@ impl FourParamFamily for PolynomialSpirals {
             let da = s / (2.0 * c) - a * log_c;
             let db = f / c - b * log_c;
             let de = d + 2.0 * psi;
-            [
-                (3.0 * t - da) / 2.0,
-                8.0 * de - db,
-                12.0 * (da - t),
-                48.0 * (db - 4.0 * de),
-                log_c,
-            ]
+            [(3.0 * t - da) / 2.0, 8.0 * de - db, 12.0 * (da - t), 48.0 * (db - 4.0 * de), log_c]
         };
         let columns = [
             column(1.0, -1.0, 0.0, 0.0),
@@ -133,12 +127,7 @@ impl FourParamFamily for PolynomialSpirals {
             }
         }
         Response {
-            jets: [
-                even - odd + psi,
-                even + odd - psi,
-                c * curvature[0],
-                c * curvature[1],
-            ],
+            jets: [even - odd + psi, even + odd - psi, c * curvature[0], c * curvature[1]],
             derivatives: [c2 * first[0], c3 * second[0], c2 * first[1], c3 * second[1]],
             derivatives_by_jets,
             parameters_by_jets,

@@ -28,16 +28,10 @@ fn response_agrees_with_the_segment_and_with_differences() {
             for other in 0..4 {
                 let slope = (up.jets[other] - down.jets[other]) / (2.0 * h);
                 let expected = if other == jet { 1.0 } else { 0.0 };
-                assert!(
-                    (slope - expected).abs() < 1e-6,
-                    "{k:?} {jet} {other}: {slope}"
-                );
+                assert!((slope - expected).abs() < 1e-6, "{k:?} {jet} {other}: {slope}");
                 let slope = (up.derivatives[other] - down.derivatives[other]) / (2.0 * h);
                 let claimed = response.derivatives_by_jets[other][jet];
-                assert!(
-                    (slope - claimed).abs() < 1e-5 * (1.0 + claimed.abs()),
-                    "{k:?} {slope}"
-                );
+                assert!((slope - claimed).abs() < 1e-5 * (1.0 + claimed.abs()), "{k:?} {slope}");
             }
         }
     }
