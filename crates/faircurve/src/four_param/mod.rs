@@ -3,7 +3,7 @@
 //!
 //! A [family] of segments answers tangents and curvatures at the ends with curvature derivatives;
 //! the [constraint table](constraint_table) says what must hold at each kind of join; and the
-//! [spline](self::spline) solves for the tangents and curvatures that make it so.
+//! [spline] solves for the tangents and curvatures that make it so.
 
 pub mod constraint_table;
 pub mod family;

@@ -48,7 +48,8 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
 
     /// Solves one run: as asked if possible, else relaxed at the knots where it isn't.
     pub fn solve_run(&self, run: &Run) -> RunSolution {
-        let solved = self.solve_smooth(run, BUDGET);
+        let mut budget = BUDGET;
+        let solved = self.solve_smooth(run, &mut budget);
         if solved.is_solved() {
             return self.place(run, solved, Vec::new());
         }
@@ -67,6 +68,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
         const ROUNDS: usize = 3;
         let n = run.knots.len();
         let mut weaker = run.clone();
+        let mut budget = BUDGET / 2;
         let mut iterations = first.iterations;
         let mut last = first;
         for join in [Join::G2, Join::G1] {
@@ -84,7 +86,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
                         knot.join = join;
                     }
                 }
-                let solved = self.solve_split(&weaker, BUDGET / 4);
+                let solved = self.solve_split(&weaker, &mut budget);
                 iterations += solved.iterations;
                 last = Solved { iterations, ..solved };
                 if last.is_solved() {
@@ -98,7 +100,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
                 weaker.knots[i].join = Join::G1;
             }
         }
-        last = self.solve_split(&weaker, 0);
+        last = self.solve_split(&weaker, &mut 0);
         last.iterations += iterations;
         for i in 0..run.segment_count() {
             let ends = [i, (i + 1) % n];
@@ -115,7 +117,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
     }
 
     /// Solves a run without G1 knots.
-    fn solve_smooth(&self, run: &Run, budget: usize) -> Solved {
+    fn solve_smooth(&self, run: &Run, budget: &mut usize) -> Solved {
         let mut system = RunSystem::new(&self.family, run);
         let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
         let outcome = strategy::solve(&mut system, &mut matrix, || self.arcs(run), budget);
@@ -150,16 +152,13 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
     }
 
     /// Solves a run that may have G1 knots, at which it falls into stretches of their own.
-    fn solve_split(&self, run: &Run, budget: usize) -> Solved {
+    fn solve_split(&self, run: &Run, budget: &mut usize) -> Solved {
         let n = run.knots.len();
-        let splits: Vec<usize> =
-            (0..n).filter(|&i| is_interior(run, i) && run.knots[i].join == Join::G1).collect();
-        if splits.is_empty() {
-            return self.solve_smooth(run, budget);
-        }
-        let mut bounds = splits.clone();
+        let is_split = |i: usize| is_interior(run, i) && run.knots[i].join == Join::G1;
+        let mut bounds: Vec<usize> = (0..n).filter(|&i| is_split(i)).collect();
+        let Some(&first) = bounds.first() else { return self.solve_smooth(run, budget) };
         if run.closed {
-            bounds.push(splits[0]);
+            bounds.push(first);
         } else {
             bounds.insert(0, 0);
             bounds.push(n - 1);
@@ -173,7 +172,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
             let mut stretch = run.stretch(pair[0], pair[1]);
             let count = stretch.knots.len();
             let ends = [(0, pair[0]), (count - 1, pair[1])];
-            for (end, knot) in ends.into_iter().filter(|(_, knot)| splits.contains(knot)) {
+            for (end, knot) in ends.into_iter().filter(|&(_, knot)| is_split(knot)) {
                 stretch.knots[end].tangent = Some(self.g1_tangent(run, knot));
                 stretch.knots[end].curvature = None;
             }

@@ -40,12 +40,12 @@ pub(super) const UNSETTLED: f64 = 1e-4;
 const REACH: usize = 10;
 
 /// Solves the system as well as the budget allows; returns the steps taken and the residual. `arcs`
-/// gives segments between circle tangents.
+/// gives segments between circle tangents; `budget` is what stages 2 and 3 may still spend.
 pub(super) fn solve<F: FourParamFamily>(
     system: &mut RunSystem<'_, F>,
     matrix: &mut BlockTridiagonal<2>,
     arcs: impl Fn() -> Vec<[f64; 4]>,
-    budget: usize,
+    budget: &mut usize,
 ) -> Outcome {
     // Three knots always lie on a circle, two too many times.
     if system.knots.len() <= 3
@@ -62,8 +62,9 @@ pub(super) fn solve<F: FourParamFamily>(
         return round;
     }
     system.set_state(&plain_state);
-    let mut rescue = Rescue::new(system, budget);
+    let mut rescue = Rescue::new(system, *budget);
     let residual = rescue.run(system, matrix, plain.residual);
+    *budget = rescue.budget;
     Outcome { iterations: plain.iterations + rescue.iterations, residual }
 }
 
@@ -134,9 +135,12 @@ impl Rescue {
     ) -> f64 {
         /// Where more of the knots than this are bad, mending has no good ground to stand on.
         const MOSTLY: f64 = 0.4;
+        /// Growing costs at least this much a knot.
+        const COST: usize = 40;
         let n = system.knots.len();
         let (mut best, mut least) = (system.state(), (Badness::of(system), residual));
-        if n > 4 && least.0.unsettled as f64 > MOSTLY * n as f64 {
+        let mostly_bad = least.0.unsettled as f64 > MOSTLY * n as f64;
+        if n > 4 && mostly_bad && self.budget > n * COST {
             self.grow(system);
         }
         loop {
@@ -159,6 +163,9 @@ impl Rescue {
     fn mend<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>) {
         /// Attempts without success after which the run as a whole deserves a look.
         const PATIENCE: usize = 60;
+        /// Looking over this many knots costs about as much as evaluating one segment.
+        const BOOKKEEPING: usize = 16;
+        let n = system.knots.len();
         let mut attempt = 0;
         while self.budget > 0 && attempt < PATIENCE {
             let stretches = bad_stretches(system, 1 + attempt % 6);
@@ -166,10 +173,10 @@ impl Rescue {
                 return;
             };
             attempt += 1;
+            self.spend(n / BOOKKEEPING);
             let Some(window) = self.restart(system, from, to, attempt) else { continue };
             let (before, badness) = (system.state(), Badness::of(system));
             system.adopt(&window, from);
-            system.evaluate();
             self.settle_around(system, from, to);
             if Badness::of(system) < badness {
                 attempt = 0;
@@ -242,16 +249,14 @@ impl Rescue {
             self.solve_window(&mut window);
             system.adopt(&window, from);
         }
-        system.evaluate();
     }
 
     /// Builds the run knot by knot, from its first one.
     fn grow<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>) {
         let mut open = if system.is_closed() { system.opened() } else { system.clone() };
         self.grow_open(&mut open);
-        let n = system.knots.len();
-        open.knots.truncate(n);
-        system.adopt(&open, 0);
+        system.parameters = open.parameters;
+        system.knots.iter_mut().zip(&open.knots).for_each(|(to, from)| to.turn = from.turn);
         system.evaluate();
     }
 
@@ -289,7 +294,9 @@ impl Rescue {
             if let Some((_, window)) = straightest {
                 open.adopt(&window, first);
             }
-            open.evaluate();
+            if self.budget == 0 {
+                return;
+            }
         }
     }
 
@@ -329,9 +336,12 @@ impl Rescue {
     ) -> Outcome {
         let outcome = newton(system, matrix, limits);
         self.iterations += outcome.iterations;
-        let work = (outcome.iterations + 1) * system.parameters.len();
-        self.budget = self.budget.saturating_sub(work);
+        self.spend((outcome.iterations + 1) * system.parameters.len());
         outcome
+    }
+
+    fn spend(&mut self, work: usize) {
+        self.budget = self.budget.saturating_sub(work);
     }
 }
 

@@ -147,14 +147,16 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
         }
     }
 
-    /// Takes over the state of a window that starts at knot `from`.
+    /// Takes over the state of a window that starts at knot `from`, as it was last evaluated.
     pub(super) fn adopt(&mut self, window: &Self, from: usize) {
         let n = self.knots.len();
-        for (i, parameters) in window.parameters.iter().enumerate() {
-            self.parameters[(from + i) % n] = *parameters;
+        for i in 0..window.parameters.len() {
+            self.parameters[(from + i) % n] = window.parameters[i];
+            self.responses[(from + i) % n] = window.responses[i];
         }
         for (i, knot) in window.knots.iter().enumerate() {
             self.knots[(from + i) % n].turn = knot.turn;
+            self.mismatch[(from + i) % n] = self.mismatch_at((from + i) % n);
         }
     }
 
@@ -197,22 +199,24 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
 
     /// Computes responses and mismatches of the present state.
     pub(super) fn evaluate(&mut self) {
-        let n = self.knots.len();
         self.responses.clear();
         self.responses.extend(self.parameters.iter().map(|p| self.family.respond(*p)));
-        for i in 0..n {
-            let (left, right) = neighbours(i, n, self.closed);
-            self.mismatch[i] = match (left, right) {
-                (Some(l), Some(r)) => {
-                    let (before, after) = (&self.responses[l].jets, &self.responses[r].jets);
-                    let knot = &self.knots[i];
-                    [
-                        knot.turn - after[0] - before[1],
-                        (after[2] / self.chords[r] - before[3] / self.chords[l]) * knot.h,
-                    ]
-                }
-                _ => [0.0; 2],
-            };
+        for i in 0..self.knots.len() {
+            self.mismatch[i] = self.mismatch_at(i);
+        }
+    }
+
+    fn mismatch_at(&self, i: usize) -> [f64; 2] {
+        let knot = &self.knots[i];
+        match neighbours(i, self.knots.len(), self.closed) {
+            (Some(l), Some(r)) => {
+                let (before, after) = (&self.responses[l].jets, &self.responses[r].jets);
+                [
+                    knot.turn - after[0] - before[1],
+                    (after[2] / self.chords[r] - before[3] / self.chords[l]) * knot.h,
+                ]
+            }
+            _ => [0.0; 2],
         }
     }
 

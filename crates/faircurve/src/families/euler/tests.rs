@@ -21,7 +21,6 @@ fn the_fit_has_the_angles_asked_for_over_the_whole_square() {
             assert!(error * chord.length < 1e-14, "{angles:?} {found:?} {spiral:?}");
         }
     }
-    println!("{worst:e}");
 }
 
 #[test]
