@@ -4,6 +4,8 @@
 mod common;
 
 use common::parse;
+use faircurve::kurbo::{Affine, Point, Vec2};
+use faircurve::{Contour, Solution};
 use faircurve_format::{Document, json};
 
 const FONTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data");
@@ -75,4 +77,61 @@ fn a_cut_off_font_is_an_error() {
         assert!(parse("sfd", &bytes[..end - 1]).is_err());
         assert!(parse("sfd", &bytes[..end]).is_ok());
     }
+}
+
+/// Every contour of every font, solved as asked; every curved closed one the same from another start,
+/// backwards, and turned, mirrored and scaled, to 1e-9 of its size.
+#[test]
+fn every_contour_is_solved_and_the_same_however_it_is_written() {
+    let spiro = faircurve::catalog::spline("spiro").unwrap();
+    let solve = |contour: &Contour| faircurve::solve(contour, &*spiro).unwrap();
+    for (name, ..) in COUNTS {
+        let Some(bytes) = font(name) else { continue };
+        let document = parse("sfd", bytes).unwrap();
+        let contours = document.glyphs.iter().flat_map(|glyph| &glyph.contours);
+        for contour in contours.map(|contour| &contour.contour) {
+            let solution = solve(contour);
+            assert!(solution.report.relaxed.is_empty(), "{name}: {contour:?}");
+            assert!(solution.report.residual <= 1e-9, "{name}: {contour:?}");
+            let n = contour.knots.len();
+            if !contour.closed || n < 2 {
+                continue;
+            }
+            let before = middles(&solution);
+            let size = solution.curve.bounding_box().unwrap().size().max_side();
+            let compare = |what: &str, after: Vec<Point>, map: Affine, scale: f64| {
+                for (before, after) in before.iter().zip(after) {
+                    let off = (map * *before - after).hypot();
+                    assert!(off <= 1e-9 * scale * size, "{name}, {what}: {off:e} {contour:?}");
+                }
+            };
+            let mut shifted = contour.clone();
+            shifted.knots.rotate_left(n / 3);
+            let mut after = middles(&solve(&shifted));
+            after.rotate_right(n / 3);
+            compare("another start", after, Affine::IDENTITY, 1.0);
+            let mut after = middles(&solve(&contour.reversed()));
+            after[..n - 1].reverse();
+            compare("backwards", after, Affine::IDENTITY, 1.0);
+            for (angle, scale, mirror) in [(0.7, 1e-6, 1.0), (2.0, 1e6, -1.0), (-1.1, 0.3, 1.0)] {
+                let map = Affine::rotate(angle) * Affine::scale_non_uniform(scale, mirror * scale);
+                let mut moved = contour.clone();
+                moved.knots.iter_mut().for_each(|knot| {
+                    let turned = |v: Vec2| (map * v.to_point()).to_vec2();
+                    knot.point = map * knot.point;
+                    knot.tangent_in = knot.tangent_in.map(turned);
+                    knot.tangent_out = knot.tangent_out.map(turned);
+                    knot.curvature_in = knot.curvature_in.map(|k| k * mirror / scale);
+                    knot.curvature_out = knot.curvature_out.map(|k| k * mirror / scale);
+                });
+                compare("moved", middles(&solve(&moved)), map, scale);
+            }
+        }
+    }
+}
+
+/// The middle of each segment.
+fn middles(solution: &Solution) -> Vec<Point> {
+    let segments = solution.curve.segments().iter();
+    segments.map(|segment| segment.point(segment.length() / 2.0)).collect()
 }

@@ -736,21 +736,25 @@ fn canonical(run: Run, first_node: usize, nodes: usize) -> (Run, usize, bool) {
 }
 
 /// What a knot looks like to someone who travels the run: its join, its turning angle without sign,
-/// and the chord that follows; the numbers rounded, so that rounding errors don't tell knots apart
-/// that are alike.
-type Mark = (Join, i64, i64);
+/// the chord that follows, and what is given there; the numbers rounded, so that rounding errors
+/// don't tell knots apart that are alike.
+type Mark = (Join, i64, i64, Option<i64>, Option<i64>);
 
 fn marks(run: &Run) -> Vec<Mark> {
     /// Alike to a billionth of a radian or of the run's size.
     const FINENESS: f64 = 1e9;
+    let coarse = |number: f64| (number.abs() * FINENESS).round() as i64;
     let n = run.knots.len();
-    let size = (0..run.segment_count()).map(|i| run.chord(i).hypot()).fold(0.0, f64::max);
+    let segments = run.segment_count();
+    let size = (0..segments).map(|i| run.chord(i).hypot()).fold(0.0, f64::max);
     (0..n)
         .map(|i| {
-            let chord = if i < run.segment_count() { run.chord(i).hypot() / size } else { 0.0 };
-            let turn = run.knots[i].turn.abs();
-            let coarse = |number: f64| (number * FINENESS).round() as i64;
-            (run.knots[i].join, coarse(turn), coarse(chord))
+            let knot = &run.knots[i];
+            let chord = if i < segments { run.chord(i).hypot() / size } else { 0.0 };
+            let off = |tangent| wrap_angle(tangent - direction(run.chord(i.min(segments - 1))));
+            let tangent = knot.tangent.map(|tangent| coarse(off(tangent)));
+            let curvature = knot.curvature.map(|curvature| coarse(curvature * size));
+            (knot.join, coarse(knot.turn), coarse(chord), tangent, curvature)
         })
         .collect()
 }

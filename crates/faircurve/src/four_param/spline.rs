@@ -112,6 +112,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
                 }
             }
         }
+        // Nothing is asked any more where a line was drawn.
         last.residuals.iter_mut().filter(|r| !(**r <= SOLVED)).for_each(|r| *r = 0.0);
         (last, weaker)
     }
@@ -220,38 +221,46 @@ fn is_interior(run: &Run, i: usize) -> bool {
 
 /// What the weakened run no longer asks.
 fn relaxations(run: &Run, weaker: &Run) -> Vec<Relaxation> {
-    let changed = run.knots.iter().zip(&weaker.knots).enumerate();
-    changed
-        .filter_map(|(i, (asked, got))| {
-            let names = if is_interior(run, i) {
-                (asked.join != got.join).then(|| (asked.join.name(), got.join.name()))
-            } else if asked.tangent != got.tangent {
-                Some(("tangent", "free"))
-            } else if asked.curvature == got.curvature {
-                None
-            } else if asked.join == Join::Corner {
-                Some(("curvature", "free"))
-            } else {
-                Some((asked.join.name(), Join::G1.name()))
-            };
-            let (asked, got) = names?;
-            Some(Relaxation { place: Place::Knot(i), asked, got, reason: reason(run, i, asked) })
-        })
-        .collect()
+    let mut relaxed = Vec::new();
+    for (i, (asked, got)) in run.knots.iter().zip(&weaker.knots).enumerate() {
+        let mut relax = |asked, got| {
+            let reason = reason(run, i);
+            relaxed.push(Relaxation { place: Place::Knot(i), asked, got, reason });
+        };
+        if is_interior(run, i) {
+            if asked.join != got.join {
+                relax(asked.join.name(), got.join.name());
+            }
+            continue;
+        }
+        if asked.tangent != got.tangent {
+            relax("tangent", "free");
+        }
+        if asked.curvature != got.curvature {
+            // At the contour's own end or a corner the curvature was given; elsewhere it is that of
+            // the straight line which the join continues.
+            match asked.join {
+                Join::Corner => relax("curvature", "free"),
+                join => relax(join.name(), Join::G1.name()),
+            }
+        }
+    }
+    relaxed
 }
 
 /// Words for a designer.
-fn reason(run: &Run, i: usize, asked: &str) -> String {
+fn reason(run: &Run, i: usize) -> String {
     if !is_interior(run, i) {
-        return format!("no curve was found that starts or ends here with this {asked}");
+        return "no curve was found that starts or ends in this way".to_owned();
     }
     let turn = run.knots[i].turn.abs().to_degrees().round();
     let n = run.knots.len();
     let (before, after) = (run.chord((i + n - 1) % n).hypot(), run.chord(i).hypot());
     let ratio = (before / after).max(after / before);
-    let mut words = format!("no curve was found that turns {turn}° here and joins {asked}");
+    let mut words =
+        format!("no curve was found that joins in this way where the knots turn {turn}°");
     if ratio >= 10.0 {
-        words += &format!("; one neighbour is {ratio:.0} times as far as the other");
+        words += &format!(" and one neighbour is {ratio:.0} times as far as the other");
     }
     words
 }

@@ -11,7 +11,9 @@
 //!    and lets the last few settle with a free end, in the few windings nearest to the natural one.
 //!    Then what is left is mended, and the whole run solved on from there.
 //!
-//! Deterministic: the seeds are fixed, and the budget counts work, not time.
+//! The search sees rounded numbers, so that it takes the same course however the drawing is moved,
+//! turned or scaled; the last word is Newton's, on the exact ones. It is deterministic: seeds are
+//! fixed, and the budget counts work, not time.
 
 use std::f64::consts::TAU;
 
@@ -26,8 +28,11 @@ use crate::tolerance::{LOOP, SOLVED};
 pub(super) const BUDGET: usize = 200_000;
 
 /// How plain Newton iteration is limited. Runs that converge take 3 to 10 steps; with more of them
-/// success comes to depend on rounding errors.
-const PLAIN: Limits = Limits { iterations: 30, patience: 12 };
+/// success comes to depend on rounding errors, and so on how the drawing is turned.
+const PLAIN: Limits = Limits { iterations: 16, patience: 8 };
+
+/// The same within the search, whose numbers are rounded.
+const LONG: Limits = Limits { iterations: 30, patience: 12 };
 
 /// A stretch that settles does so in fewer.
 const WINDOW: Limits = Limits { iterations: 12, patience: 8 };
@@ -61,11 +66,18 @@ pub(super) fn solve<F: FourParamFamily>(
     if let Some(round) = solve_round(system, matrix, arcs()) {
         return round;
     }
-    system.set_state(&plain_state);
-    let mut rescue = Rescue::new(system, *budget);
-    let residual = rescue.run(system, matrix, plain.residual);
+    let mut rounded = system.rounded();
+    let mut rescue = Rescue::new(&rounded, *budget);
+    rescue.run(&mut rounded, matrix);
     *budget = rescue.budget;
-    Outcome { iterations: plain.iterations + rescue.iterations, residual }
+    system.take_from_rounded(&rounded);
+    let rescued = newton(system, matrix, PLAIN);
+    let iterations = plain.iterations + rescue.iterations + rescued.iterations;
+    if rescued.residual > SOLVED && plain.residual <= SOLVED {
+        system.set_state(&plain_state);
+        return Outcome { iterations, ..plain };
+    }
+    Outcome { iterations, ..rescued }
 }
 
 /// Knots on a circle: the circle it is, however much of it lies between two of them.
@@ -126,26 +138,23 @@ impl Rescue {
         Rescue { budget, random: Random(0), sense, iterations: 0 }
     }
 
-    /// Leaves the best state found in `system`; returns its residual.
+    /// Leaves the best state found in `system`.
     fn run<F: FourParamFamily>(
         &mut self,
         system: &mut RunSystem<'_, F>,
         matrix: &mut BlockTridiagonal<2>,
-        residual: f64,
-    ) -> f64 {
-        /// Where more of the knots than this are bad, mending has no good ground to stand on.
-        const MOSTLY: f64 = 0.4;
+    ) {
         /// Growing costs at least this much a knot.
         const COST: usize = 40;
         let n = system.knots.len();
-        let (mut best, mut least) = (system.state(), (Badness::of(system), residual));
-        let mostly_bad = least.0.unsettled as f64 > MOSTLY * n as f64;
-        if n > 4 && mostly_bad && self.budget > n * COST {
+        let outcome = self.newton(system, matrix, LONG);
+        let (mut best, mut least) = (system.state(), (Badness::of(system), outcome.residual));
+        if n > 4 && self.budget > n * COST {
             self.grow(system);
         }
         loop {
             self.mend(system);
-            let outcome = self.newton(system, matrix, PLAIN);
+            let outcome = self.newton(system, matrix, LONG);
             let now = (Badness::of(system), outcome.residual);
             if now < least {
                 (best, least) = (system.state(), now);
@@ -154,7 +163,7 @@ impl Rescue {
             }
             let (badness, residual) = least;
             if self.budget == 0 || residual <= SOLVED && badness.loops == 0 {
-                return residual;
+                return;
             }
         }
     }

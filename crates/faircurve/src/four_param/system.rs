@@ -6,6 +6,8 @@
 //! four parameters follow from those at its two ends, and each knot's other two conditions are the
 //! equations. Whatever the joins, that is the same block tridiagonal system with blocks of 2.
 
+use std::f64::consts::TAU;
+
 use super::constraint_table::{self as table, Condition, Quantity, SegmentConstraints, Side};
 use super::family::{FourParamFamily, Response};
 use crate::frame::{direction, wrap_angle};
@@ -60,13 +62,8 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
         let knots = (0..n)
             .map(|i| {
                 let (left, right) = neighbours(i, n, run.closed);
-                let h = match (left, right) {
-                    (Some(l), Some(r)) => 2.0 * chords[l] * chords[r] / (chords[l] + chords[r]),
-                    (Some(only), None) | (None, Some(only)) => chords[only],
-                    (None, None) => 1.0,
-                };
                 let (equations, turn) = equations(run, i, left, right);
-                SystemKnot { equations, turn, h }
+                SystemKnot { equations, turn, h: harmonic_mean(&chords, left, right) }
             })
             .collect();
         RunSystem {
@@ -78,6 +75,47 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
             mismatch: vec![[0.0; 2]; n],
             closed: run.closed,
         }
+    }
+
+    /// The same equations with every number rounded to about eight digits, in units of the longest
+    /// chord, from straight segments.
+    ///
+    /// Runs that differ by a similarity differ in their last digits; rounded, they are the same run,
+    /// and so is all that a search makes of it, however sensitive.
+    pub(super) fn rounded(&self) -> Self {
+        const FINENESS: f64 = 1.0 / (1u64 << 26) as f64;
+        let fixed = |number: f64| (number / FINENESS).round() * FINENESS;
+        let floating = |number: f64| {
+            let unit = number.abs().log2().floor().exp2() * FINENESS;
+            if unit > 0.0 && unit.is_finite() { (number / unit).round() * unit } else { number }
+        };
+        let longest = self.chords.iter().copied().fold(0.0, f64::max);
+        let n = self.knots.len();
+        let mut rounded = self.clone();
+        rounded.parameters.fill([0.0; 4]);
+        rounded.chords.iter_mut().for_each(|chord| *chord = floating(*chord / longest));
+        for (i, knot) in rounded.knots.iter_mut().enumerate() {
+            let (left, right) = neighbours(i, n, self.closed);
+            knot.h = harmonic_mean(&rounded.chords, left, right);
+            knot.turn = fixed(knot.turn);
+            for equation in &mut knot.equations {
+                match equation {
+                    Equation::Direction(angle) => *angle = fixed(*angle),
+                    Equation::Curvature(curvature) => *curvature = floating(*curvature * longest),
+                    Equation::Condition(_) => {}
+                }
+            }
+        }
+        rounded
+    }
+
+    /// Takes over segments and windings from a system that [`rounded`](Self::rounded) made.
+    pub(super) fn take_from_rounded(&mut self, rounded: &Self) {
+        self.parameters.clone_from(&rounded.parameters);
+        for (knot, other) in self.knots.iter_mut().zip(&rounded.knots) {
+            knot.turn += TAU * ((other.turn - knot.turn) / TAU).round();
+        }
+        self.evaluate();
     }
 
     /// Removes from the parameters what rounding has left of quantities that are zero by Table 7.1.
@@ -107,8 +145,17 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
         SegmentConstraints::between(conditions(segment), conditions((segment + 1) % n))
     }
 
-    /// Residual of one knot: the largest of its mismatches and equations.
+    /// Residual of one knot: the largest of its mismatches and equations; infinite beside a segment
+    /// that is no solution even where its equations hold, because it wanders off.
     pub(super) fn knot_residual(&self, i: usize) -> f64 {
+        /// In chords. Such segments nearly close into circles; the longer, the more the rest of the
+        /// curve hangs on their rounding errors.
+        const LONGEST: f64 = 1000.0;
+        let (left, right) = neighbours(i, self.knots.len(), self.closed);
+        let beside = [left, right].into_iter().flatten();
+        if beside.into_iter().any(|segment| self.straightness(segment) * LONGEST < 1.0) {
+            return f64::INFINITY;
+        }
         let values = self.knots[i].equations.map(|equation| self.value(i, equation).abs());
         let [direction, curvature] = self.mismatch[i].map(f64::abs);
         direction.max(curvature).max(values[0]).max(values[1])
@@ -341,11 +388,10 @@ impl<F: FourParamFamily> System<2> for RunSystem<'_, F> {
         residual
     }
 
-    fn advance(&mut self, step: &[[f64; 2]]) -> f64 {
+    fn advance(&mut self, step: &[[f64; 2]]) {
         /// Largest bend of a segment in one step, in radians. Anything from ½ to 4 does about as well.
         const CLAMP: f64 = 1.0;
         let n = self.knots.len();
-        let mut size = 0.0f64;
         for segment in 0..self.parameters.len() {
             let (start, end) = (segment, (segment + 1) % n);
             let chord = self.chords[segment];
@@ -359,7 +405,6 @@ impl<F: FourParamFamily> System<2> for RunSystem<'_, F> {
             let mut change: [f64; 4] =
                 std::array::from_fn(|row| (0..4).map(|jet| by_jets[row][jet] * jets[jet]).sum());
             let bend = self.family.bend(change);
-            size = size.max(bend);
             if bend > CLAMP {
                 change = change.map(|change| change * CLAMP / bend);
             }
@@ -367,7 +412,15 @@ impl<F: FourParamFamily> System<2> for RunSystem<'_, F> {
                 (0..4).for_each(|row| self.parameters[segment][row] += change[row]);
             }
         }
-        size
+    }
+}
+
+/// The length that makes a knot's equations dimensionless.
+fn harmonic_mean(chords: &[f64], left: Option<usize>, right: Option<usize>) -> f64 {
+    match (left, right) {
+        (Some(l), Some(r)) => 2.0 * chords[l] * chords[r] / (chords[l] + chords[r]),
+        (Some(only), None) | (None, Some(only)) => chords[only],
+        (None, None) => 1.0,
     }
 }
 

@@ -252,18 +252,15 @@ impl<F: TwoParamFamily> System<1> for TangentSystem<'_, F> {
         residual
     }
 
-    fn advance(&mut self, step: &[[f64; 1]]) -> f64 {
+    fn advance(&mut self, step: &[[f64; 1]]) {
         /// Radians a knot may turn in one step.
         const CLAMP: f64 = 0.7;
-        let mut size = 0.0f64;
         for (i, [step]) in step.iter().enumerate() {
-            size = size.max(step.abs());
             if step.is_finite() {
                 self.tangents[i] += step.clamp(-CLAMP, CLAMP);
             }
             self.keep_in_range(i);
         }
-        size
     }
 }
 

@@ -22,7 +22,7 @@ pub const INFO: SplineInfo = SplineInfo {
     params: &[],
     default_join: Join::G4,
     joins: &Join::ALL,
-    ends: &["arc-like: κ′ = κ″ = 0"],
+    ends: &["natural"],
     claims: &[
         Claim::Parameters(4),
         Claim::Continuity(4),
