@@ -115,7 +115,7 @@ fn format_of(args: &SolveArgs, target: Option<&Path>) -> Result<&'static Format,
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     find(&extension).ok_or_else(|| {
         Failure::new("the name doesn't tell the format to write")
-            .hint(format!("end it in .json, .svg, .png or .path, or add --format"))
+            .hint("end it in .json, .svg, .png or .path, or add --format".to_owned())
             .within(&path.display().to_string())
     })
 }

@@ -151,6 +151,11 @@ impl Rescue {
         let (mut best, mut least) = (system.state(), (Badness::of(system), outcome.residual));
         if n > 4 && self.budget > n * COST {
             self.grow(system);
+            let (grown, badness) = (system.state(), Badness::of(system));
+            self.newton(system, matrix, Limits { iterations: 8, patience: 8 });
+            if Badness::of(system) > badness {
+                system.set_state(&grown);
+            }
         }
         loop {
             self.mend(system);
@@ -172,13 +177,17 @@ impl Rescue {
     fn mend<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>) {
         /// Attempts without success after which the run as a whole deserves a look.
         const PATIENCE: usize = 60;
+        /// Knots on either side of a bad stretch that are restarted with it.
+        const MARGINS: [usize; 6] = [1, 2, 3, 5, 8, 12];
         /// Looking over this many knots costs about as much as evaluating one segment.
         const BOOKKEEPING: usize = 16;
         let n = system.knots.len();
         let mut attempt = 0;
         while self.budget > 0 && attempt < PATIENCE {
-            let stretches = bad_stretches(system, 1 + attempt % 6);
-            let Some(&(from, to)) = stretches.get((attempt / 6) % stretches.len().max(1)) else {
+            let stretches = bad_stretches(system, MARGINS[attempt % MARGINS.len()]);
+            let Some(&(from, to)) =
+                stretches.get((attempt / MARGINS.len()) % stretches.len().max(1))
+            else {
                 return;
             };
             attempt += 1;
@@ -208,7 +217,7 @@ impl Rescue {
         const GENTLE: f64 = 1.0;
         const SHARE_TURNED: f64 = 0.3;
         /// One attempt in this many builds the stretch knot by knot instead.
-        const GROWN: usize = 6;
+        const GROWN: usize = 5;
         let mut window = if from == to { system.clone() } else { system.window(from, to) };
         if attempt.is_multiple_of(GROWN) && from != to {
             self.grow_open(&mut window);
@@ -273,6 +282,8 @@ impl Rescue {
     fn grow_open<F: FourParamFamily>(&mut self, open: &mut RunSystem<'_, F>) {
         /// Attempts at adding one knot.
         const ATTEMPTS: usize = 16;
+        /// Attempts made to get rid of a loop, where the knot could be added with one.
+        const ATTEMPTS_AT_LOOPS: usize = 4;
         open.parameters.fill([0.0; 4]);
         open.knots.iter_mut().for_each(|knot| knot.turn = wrap_angle(knot.turn));
         open.evaluate();
@@ -295,6 +306,9 @@ impl Rescue {
                     if least * LOOP > 1.0 {
                         break;
                     }
+                }
+                if straightest.is_some() && attempt + 1 >= ATTEMPTS_AT_LOOPS {
+                    break;
                 }
                 if self.budget == 0 {
                     break;
