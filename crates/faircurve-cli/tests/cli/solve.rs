@@ -223,6 +223,7 @@ fn a_reader_that_goes_away_is_no_failure() {
 }
 
 #[test]
+#[expect(clippy::print_stdout, reason = "tests say why they are skipped")]
 fn a_real_font_is_solved_whole() {
     let font =
         concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/Cantarell-Regular-Spiro.sfd");
@@ -232,7 +233,7 @@ fn a_real_font_is_solved_whole() {
     }
     let folder = Folder::new();
     let run = folder.run(&format!("solve {font} -o font.json"));
-    assert!([0, 3].contains(&run.code), "{}", run.stderr);
+    assert_eq!(run.code, 0, "{}", run.stderr);
     let text = std::fs::read_to_string(folder.path("font.json")).unwrap();
     assert_eq!(splines(&text).len(), 180);
 }
