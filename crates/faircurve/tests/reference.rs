@@ -64,7 +64,7 @@ fn euler_fit_over_the_whole_square() {
             (angles.mirrored(), -k0, -k1),
             (angles.reversed(), -k0, k1),
         ] {
-            let spiral = fit_euler(angles).unwrap_or_else(|| panic!("no spiral for {angles:?}"));
+            let spiral = fit_euler(angles).unwrap();
             let [ours_0, ours_1, ..] = spiral.k;
             assert!((ours_0 - k0).abs() <= 1e-15 * (1.0 + k0.abs()), "{angles:?}: k0 {ours_0}");
             let error = (ours_1 - k1).abs();

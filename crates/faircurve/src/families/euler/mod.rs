@@ -2,6 +2,7 @@
 //! continuous curvature (thesis sections 4.6, 8.2, 8.3.1).
 
 use std::f64::consts::{PI, TAU};
+use std::fmt;
 
 use kurbo::Point;
 
@@ -117,9 +118,9 @@ impl Spline for Euler {
 impl TwoParamFamily for Euler {
     fn curvatures(&self, angles: ChordAngles) -> EndCurvatures {
         match fit(angles) {
-            Some(fit) => fit.curvatures(),
-            // Only at (π, π), which `limit` excludes; a circle of unit circumference is its limit.
-            None => EndCurvatures {
+            Ok(fit) => fit.curvatures(),
+            // Only in corners, which `limit` excludes: no curvature, whatever the angles.
+            Err(_) => EndCurvatures {
                 value: [EndCurvature::finite(0.0); 2],
                 by_angle: [[EndCurvature { num: 1.0, den: 0.0 }; 2]; 2],
             },
@@ -128,8 +129,8 @@ impl TwoParamFamily for Euler {
 
     fn shape(&self, start: Point, end: Point, angles: ChordAngles) -> Segment {
         match fit_euler(angles) {
-            Some(spiral) => Segment::spiral(start, end, spiral),
-            None => Segment::line(start, end),
+            Ok(spiral) => Segment::spiral(start, end, spiral),
+            Err(_) => Segment::line(start, end),
         }
     }
 
@@ -143,21 +144,44 @@ impl TwoParamFamily for Euler {
     }
 }
 
+/// Why no Euler spiral has the end tangents asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FitError {
+    /// Both angles are π, or both −π: the spiral closes into a circle, which has no chord.
+    ClosedCircle,
+    /// An angle lies beyond ±π, or isn't a number.
+    OutOfRange,
+}
+
+impl fmt::Display for FitError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            FitError::ClosedCircle => "a segment that leaves and arrives backwards has no chord",
+            FitError::OutOfRange => "an end tangent lies beyond half a turn from the chord",
+        })
+    }
+}
+
+impl std::error::Error for FitError {}
+
 /// The Euler spiral with these end tangents relative to its chord (thesis section 8.2): k₀ and k₁
 /// of eq. 8.16, for arc length 1.
 ///
-/// Defined over the whole square |θ| ≤ π but for its two corners (π, π) and (−π, −π), where the
-/// spiral closes into a circle without a chord: `None` there, for larger angles and for NaN. Of
-/// the many windings it is the one that continues the straight line. k₁ is accurate to
-/// 1e-13·(1 + |k₁|).
+/// Of the many windings it is the one that continues the straight line. k₁ is accurate to
+/// 1e-13·(1 + |k₁|) over the whole square |θ| ≤ π, up to its corners.
+///
+/// # Errors
+/// [`FitError`] in the two corners (π, π) and (−π, −π), outside the square, and for NaN.
 ///
 /// ```
-/// use faircurve::{families::euler::fit_euler, frame::ChordAngles};
-/// let arc = fit_euler(ChordAngles::new(0.5, 0.5)).unwrap();
+/// use std::f64::consts::PI;
+/// use faircurve::{families::euler::{FitError, fit_euler}, frame::ChordAngles};
+/// let arc = fit_euler(ChordAngles::new(0.5, 0.5))?;
 /// assert_eq!(arc.k, [1.0, 0.0, 0.0, 0.0]);
-/// assert!(fit_euler(ChordAngles::new(std::f64::consts::PI, std::f64::consts::PI)).is_none());
+/// assert_eq!(fit_euler(ChordAngles::new(PI, PI)), Err(FitError::ClosedCircle));
+/// # Ok::<(), FitError>(())
 /// ```
-pub fn fit_euler(angles: ChordAngles) -> Option<PolynomialSpiral> {
+pub fn fit_euler(angles: ChordAngles) -> Result<PolynomialSpiral, FitError> {
     fit(angles).map(|fit| PolynomialSpiral::new([fit.k0, fit.k1, 0.0, 0.0]))
 }
 
@@ -173,14 +197,15 @@ struct Fit {
 ///
 /// The thesis uses the secant method; with ∂ψ/∂k₁ = ½ Re(M₂/M₀) and the next derivative at hand,
 /// Halley's takes two or three evaluations.
-fn fit(angles: ChordAngles) -> Option<Fit> {
-    /// Far more than ever needed; each step at least halves the bracket or is Halley's.
+fn fit(angles: ChordAngles) -> Result<Fit, FitError> {
+    /// Far more than ever needed.
     const MOST_STEPS: usize = 60;
     let ChordAngles { theta0, theta1 } = angles;
-    if !(theta0.abs() <= PI && theta1.abs() <= PI)
-        || theta0.abs() + theta1.abs() == TAU && theta0 == theta1
-    {
-        return None;
+    if !(theta0.abs() <= PI && theta1.abs() <= PI) {
+        return Err(FitError::OutOfRange);
+    }
+    if theta0 == theta1 && theta0.abs() == PI {
+        return Err(FitError::ClosedCircle);
     }
     let (k0, difference) = (theta0 + theta1, theta1 - theta0);
     // Thesis figure 8.3 (the text above it has a slip): 6D(1 − x³), x = |k₀|/2π.
@@ -208,7 +233,7 @@ fn fit(angles: ChordAngles) -> Option<Fit> {
         }
         k1 += step.clamp(-4.0, 4.0);
     }
-    best.map(|(_, fit)| fit)
+    best.map(|(_, fit)| fit).ok_or(FitError::ClosedCircle)
 }
 
 impl Fit {

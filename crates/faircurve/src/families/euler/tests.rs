@@ -44,3 +44,56 @@ fn derivatives_agree_with_differences() {
         }
     }
 }
+
+/// The fit is the winding that continues the straight line, found here by following it in small
+/// steps; close to the square's edges too.
+#[test]
+fn the_fit_continues_the_straight_line() {
+    let mut state = 1u64;
+    let mut random = move || {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    };
+    for n in 0..600 {
+        let mut edge = || PI * (1.0 - 10f64.powf(-8.0 * random().abs())) * random().signum();
+        let (mut theta0, mut theta1) = (edge(), edge());
+        if n % 3 != 0 {
+            (theta0, theta1) = (theta0 * random(), theta1);
+        }
+        let mut k1 = 0.0f64;
+        for step in 1..=400 {
+            let t = f64::from(step) / 400.0;
+            let (k0, difference) = (t * (theta0 + theta1), t * (theta1 - theta0));
+            for _ in 0..30 {
+                let moments = spiro_moments([k0, k1, 0.0, 0.0]);
+                let ratio = moments.0[2] * moments.integral().inv();
+                let error = difference + 2.0 * moments.integral().arg() - k1 / 4.0;
+                let change = -error / (ratio.re - 0.25);
+                k1 += change.clamp(-0.5, 0.5);
+                if change.abs() < 1e-14 * (1.0 + k1.abs()) {
+                    break;
+                }
+            }
+        }
+        let fitted = fit_euler(ChordAngles::new(theta0, theta1)).unwrap().k[1];
+        let error = (fitted - k1).abs() / (1.0 + k1.abs());
+        assert!(error < 1e-13, "{theta0} {theta1}: {fitted} {k1}");
+    }
+}
+
+#[test]
+fn corners_and_what_lies_beyond_are_errors() {
+    for (theta0, theta1, error) in [
+        (PI, PI, FitError::ClosedCircle),
+        (-PI, -PI, FitError::ClosedCircle),
+        (3.2, 0.0, FitError::OutOfRange),
+        (0.0, f64::NAN, FitError::OutOfRange),
+        (f64::INFINITY, 0.0, FitError::OutOfRange),
+    ] {
+        assert_eq!(fit_euler(ChordAngles::new(theta0, theta1)), Err(error));
+    }
+    for (theta0, theta1) in [(PI, -PI), (-PI, PI), (PI, 0.0), (0.0, -PI)] {
+        assert!(fit_euler(ChordAngles::new(theta0, theta1)).is_ok());
+    }
+}
