@@ -82,6 +82,6 @@ mod tests {
         assert_eq!(parse("1e999").unwrap_err(), "`1e999` is beyond the largest number");
         assert_eq!(parse("").unwrap_err(), "a number is missing");
         assert_eq!(parse("1,5").unwrap_err(), "`1,5` is not a number");
-        assert_eq!(parse_coordinate("1e300").unwrap_err(), "`1e300` lies beyond 1e90 units");
+        assert_eq!(parse_coordinate("1e300").unwrap_err(), "`1e300` lies beyond 1e55 units");
     }
 }

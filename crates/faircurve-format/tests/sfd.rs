@@ -226,7 +226,7 @@ fn wrong_points_are_explained() {
       at: 1e999
     "#);
     assert_snapshot!(points("    0 0 v\n    1e300 0 o\n    0 0 z\n"), @r#"
-    8:5: glyph `b`, contour 0, point 1: `1e300` lies beyond 1e90 units
+    8:5: glyph `b`, contour 0, point 1: `1e300` lies beyond 1e55 units
       at: 1e300
     "#);
     assert_snapshot!(points("    0 0 v\n    10 0 x\n    0 0 z\n"), @r#"

@@ -246,7 +246,7 @@ mod png {
     fn a_picture_is_the_same_at_every_scale() {
         let at = |scale| pixels(&Picture::new(&[glyph(&[drop_shape(scale)])], EVERYTHING), 300);
         let one = at(1.0);
-        for scale in [1e-80, 1e-6, 1e6, 1e80] {
+        for scale in [1e-50, 1e-6, 1e6, 1e50] {
             let other = at(scale);
             assert_eq!((one.width(), one.height()), (other.width(), other.height()));
             let far = one.data().iter().zip(other.data()).filter(|(a, b)| a.abs_diff(**b) > 40);

@@ -16,7 +16,10 @@ use crate::segment::Segment;
 use crate::spline::{
     Adaptation, Place, Relaxation, RunSolution, Solution, SolveReport, SolvedKnot, Spline,
 };
-use crate::tolerance::{COINCIDENT, LARGEST_COORDINATE, SMALLEST_SIZE, STRAIGHT};
+use crate::tolerance::{
+    COINCIDENT, COORDINATE_ROUNDING, INVISIBLE, LARGEST_COORDINATE, NEVER_STRAIGHT, SMALLEST_SIZE,
+    STRAIGHT,
+};
 
 /// A knot as a spline sees it: in the run's frame, with its join resolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -229,7 +232,7 @@ impl Plan {
             nodes,
         };
         plan.find_straight_segments();
-        plan.split_into_runs(frame.coordinate_noise);
+        plan.split_into_runs();
         Ok(plan)
     }
 
@@ -275,7 +278,7 @@ impl Plan {
     }
 
     /// Splits at corners, at G1 knots and around straight segments.
-    fn split_into_runs(&mut self, noise: f64) {
+    fn split_into_runs(&mut self) {
         let (n, segments) = (self.nodes.len(), self.node_segments());
         let splits = |node: usize| {
             let before = if node == 0 { segments.wrapping_sub(1) } else { node - 1 };
@@ -306,7 +309,7 @@ impl Plan {
             stretches.push((from, Run { knots, closed: false }.measured()));
         }
         for (first_node, run) in stretches {
-            if is_straight(&run, noise) {
+            if is_straight(&run) {
                 for i in 0..run.segment_count() {
                     self.straight[(first_node + i) % n] = true;
                 }
@@ -545,26 +548,23 @@ fn resolve_joins(contour: &Contour, spline: &dyn Spline) -> (Vec<Join>, Vec<Adap
 /// no translation, which would round away what distinguishes close neighbours.
 struct NormalFrame {
     scale: f64,
-    /// Coordinates of the input are known to this, in normal units.
-    coordinate_noise: f64,
 }
 
 impl NormalFrame {
     fn of(contour: &Contour) -> Result<NormalFrame, InputError> {
         let first = contour.knots[0].point;
-        let (mut low, mut high, mut largest) = (first, first, 0.0f64);
+        let (mut low, mut high) = (first, first);
         for knot in &contour.knots {
             let p = knot.point;
             low = Point::new(low.x.min(p.x), low.y.min(p.y));
             high = Point::new(high.x.max(p.x), high.y.max(p.y));
-            largest = largest.max(p.x.abs()).max(p.y.abs());
         }
         let size = (high.x - low.x).max(high.y - low.y);
         if size > 0.0 && size < SMALLEST_SIZE {
             return Err(InputError::TooSmall);
         }
         let scale = if size > 0.0 { (-size.log2().ceil()).exp2() } else { 1.0 };
-        Ok(NormalFrame { scale, coordinate_noise: largest * scale * COINCIDENT })
+        Ok(NormalFrame { scale })
     }
 
     fn point(&self, p: Point) -> Point {
@@ -577,7 +577,10 @@ fn merge_coincident(contour: &Contour, joins: &[Join], frame: &NormalFrame) -> V
     let knots = &contour.knots;
     let count = knots.len();
     let points: Vec<Point> = knots.iter().map(|knot| frame.point(knot.point)).collect();
-    let coincide = |i: usize, j: usize| (points[i] - points[j]).hypot() <= frame.coordinate_noise;
+    let coincide = |i: usize, j: usize| {
+        let rounding = COINCIDENT * largest_coordinate(points[i], points[j]);
+        (points[i] - points[j]).hypot() <= rounding.max(INVISIBLE)
+    };
     let angle = |tangent: Option<Vec2>| tangent.map(direction);
     let mut nodes: Vec<Node> = Vec::with_capacity(count);
     for (i, knot) in knots.iter().enumerate() {
@@ -681,14 +684,23 @@ fn settle_given(
     Ok(())
 }
 
+/// The largest coordinate of two points, without sign.
+fn largest_coordinate(a: Point, b: Point) -> f64 {
+    a.x.abs().max(a.y.abs()).max(b.x.abs()).max(b.y.abs())
+}
+
 /// Whether the run is straight as far as its coordinates tell: no turning beyond their rounding,
 /// nothing given that would bend it.
-fn is_straight(run: &Run, noise: f64) -> bool {
-    let chord_noise = |i: usize| STRAIGHT + noise / run.chord(i).hypot().max(f64::MIN_POSITIVE);
-    let count = run.segment_count();
+fn is_straight(run: &Run) -> bool {
     if run.closed {
         return false;
     }
+    let chord_noise = |i: usize| {
+        let coordinate = largest_coordinate(run.knots[i].point, run.knots[i + 1].point);
+        let noise = STRAIGHT + COORDINATE_ROUNDING * coordinate / run.chord(i).hypot();
+        noise.min(NEVER_STRAIGHT)
+    };
+    let count = run.segment_count();
     let aligned = |knot: &RunKnot, segment: usize| {
         let off = |tangent: f64| wrap_angle(tangent - direction(run.chord(segment))).abs();
         knot.curvature.unwrap_or(0.0) == 0.0

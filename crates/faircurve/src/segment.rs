@@ -182,9 +182,9 @@ impl Segment {
     }
 
     /// Curvature at arc length `s` and its first three derivatives by arc length, the j-th in
-    /// units⁻ʲ⁻¹ (eq. 8.6). Zeros on a segment of length 0.
+    /// units⁻ʲ⁻¹ (eq. 8.6). Zeros on a line.
     pub fn curvature_jet(&self, s: f64) -> [f64; 4] {
-        if self.length == 0.0 {
+        if self.is_line() {
             return [0.0; 4];
         }
         let mut jet = curvature_jet(self.kappa(), self.local(s));
@@ -362,7 +362,7 @@ impl Segment {
 
     /// ∫ κ² ds, in 1/units (exact: the integrand is a polynomial).
     pub fn bending_energy(&self) -> f64 {
-        if self.length == 0.0 {
+        if self.is_line() {
             return 0.0;
         }
         let k = self.kappa();
@@ -371,7 +371,7 @@ impl Segment {
 
     /// ∫ κ′² ds, in 1/units³ (exact: the integrand is a polynomial).
     pub fn variation_energy(&self) -> f64 {
-        if self.length == 0.0 {
+        if self.is_line() {
             return 0.0;
         }
         let k = self.kappa();

@@ -3,18 +3,32 @@
 //! They are multiples of the machine epsilon where rounding sets them, and dimensionless: the
 //! [plan](crate::plan) brings every contour to unit size.
 
-/// Neighbouring knots closer than this times the largest coordinate are one knot.
+/// Neighbouring knots closer than this times their largest coordinate are one knot.
 ///
 /// At this distance the direction between them is known to about a hundredth of a radian. Smaller,
 /// and the curve follows rounding noise; larger, and details that a designer drew would vanish.
 pub const COINCIDENT: f64 = 64.0 * f64::EPSILON;
 
-/// A run whose turning angles are all below this is a straight line.
+/// Neighbouring knots closer than this times the drawing's size are one knot, however small their
+/// coordinates.
+///
+/// Nothing can be drawn at such ratios; without it, lengths and energies of the smallest and the
+/// largest segment would leave the range of numbers.
+pub const INVISIBLE: f64 = 1e-18;
+
+/// A run whose turning angles are all below this, plus what rounding of its coordinates adds, is a
+/// straight line.
 ///
 /// Coordinates of collinear knots are rounded, so that angles of a few epsilon appear where none
-/// was meant, amplified by the ratio of the drawing's size to the chord (which the plan takes into
-/// account).
+/// was meant, amplified by the ratio of coordinates to chords ([`COORDINATE_ROUNDING`]).
 pub const STRAIGHT: f64 = 16.0 * f64::EPSILON;
+
+/// Coordinates are known to this times their size: a few operations' worth of rounding.
+pub const COORDINATE_ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// Whatever rounding may excuse, a run that turns by more than this isn't straight: the kinks would
+/// count against what [`SOLVED`] promises.
+pub const NEVER_STRAIGHT: f64 = 0.1 * SOLVED;
 
 /// A solution counts as solved when its residual (see
 /// [`SolveReport::residual`](crate::SolveReport::residual)) is at most this.
@@ -29,8 +43,9 @@ pub const SOLVED: f64 = 1e-9;
 /// Half a circle is 1.57 chords long, three quarters of one 3.33: designers draw those on purpose.
 pub const LOOP: f64 = 4.0;
 
-/// Coordinates beyond this are refused: energies of the result would leave the range of numbers.
-pub const LARGEST_COORDINATE: f64 = 1e90;
+/// Coordinates beyond this are refused: energies and derivatives of curvature would leave the range
+/// of numbers.
+pub const LARGEST_COORDINATE: f64 = 1e55;
 
 /// Drawings smaller than this are refused, for the same reason.
-pub const SMALLEST_SIZE: f64 = 1e-90;
+pub const SMALLEST_SIZE: f64 = 1e-55;

@@ -1,7 +1,7 @@
 //! The spline of a four-parameter family: Table 7.1's conditions at every knot of a run.
 
 use super::family::FourParamFamily;
-use super::strategy::{self, BUDGET, UNSETTLED};
+use super::strategy::{self, UNSETTLED};
 use super::system::RunSystem;
 use crate::frame::{circle_tangent, direction, wrap_angle};
 use crate::numeric::block_tridiagonal::BlockTridiagonal;
@@ -48,7 +48,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
 
     /// Solves one run: as asked if possible, else relaxed at the knots where it isn't.
     pub fn solve_run(&self, run: &Run) -> RunSolution {
-        let mut budget = BUDGET;
+        let mut budget = strategy::budget(run.knots.len());
         let solved = self.solve_smooth(run, &mut budget);
         if solved.is_solved() {
             return self.place(run, solved, Vec::new());
@@ -68,7 +68,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
         const ROUNDS: usize = 3;
         let n = run.knots.len();
         let mut weaker = run.clone();
-        let mut budget = BUDGET / 2;
+        let mut budget = strategy::budget(n) / 2;
         let mut iterations = first.iterations;
         let mut last = first;
         for join in [Join::G2, Join::G1] {

@@ -24,8 +24,13 @@ use crate::numeric::block_tridiagonal::BlockTridiagonal;
 use crate::numeric::newton::{Limits, Outcome, newton};
 use crate::tolerance::{LOOP, SOLVED};
 
-/// Work that stages 2 and 3 may spend on one run, in segment evaluations: some 50 ms.
-pub(super) const BUDGET: usize = 200_000;
+/// Work that stages 2 and 3 may spend on a run of so many knots, in segment evaluations; at most
+/// some 50 ms. What a short run doesn't find early, it doesn't find late: of four random knots all are
+/// solved within 10,000, of sixteen (G4) 93 % within 24,000 and 99 % within 190,000.
+pub(super) fn budget(knots: usize) -> usize {
+    const LARGEST: usize = 200_000;
+    LARGEST.min(knots.saturating_mul(knots).saturating_mul(750))
+}
 
 /// How plain Newton iteration is limited. Runs that converge take 3 to 10 steps; with more of them
 /// success comes to depend on rounding errors, and so on how the drawing is turned.
