@@ -4,7 +4,7 @@
 mod common;
 
 use common::parse;
-use faircurve::kurbo::{Affine, Point, Vec2};
+use faircurve::kurbo::{Affine, Line, ParamCurve, PathSeg, Point, Vec2};
 use faircurve::{Contour, Solution};
 use faircurve_format::{Document, json};
 
@@ -134,4 +134,35 @@ fn every_contour_is_solved_and_the_same_however_it_is_written() {
 fn middles(solution: &Solution) -> Vec<Point> {
     let segments = solution.curve.segments().iter();
     segments.map(|segment| segment.point(segment.length() / 2.0)).collect()
+}
+
+/// Béziers of real glyphs keep the accuracy asked for, over decades; corners, straight pieces and
+/// knots stay where they are, and closed contours close exactly.
+#[test]
+fn beziers_keep_their_accuracy() {
+    let spiro = faircurve::catalog::spline("spiro").unwrap();
+    let Some(bytes) = font("Cantarell-Regular-Spiro.sfd") else { return };
+    let document = parse("sfd", bytes).unwrap();
+    let contours = document.glyphs.iter().flat_map(|glyph| &glyph.contours);
+    for contour in contours.step_by(12).map(|contour| &contour.contour) {
+        let solution = faircurve::solve(contour, &*spiro).unwrap();
+        for accuracy in [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
+            let path = faircurve::convert::to_bezpath(&solution.curve, accuracy);
+            let pieces: Vec<PathSeg> = path.segments().collect();
+            for piece in &pieces {
+                for i in 0..=24 {
+                    let point = piece.eval(f64::from(i) / 24.0);
+                    let (.., off) = solution.curve.nearest(point, 1e-2 * accuracy).unwrap();
+                    assert!(off <= accuracy, "{off:e} at {accuracy:e}: {contour:?}");
+                }
+            }
+            let ends: Vec<Point> = pieces.iter().map(PathSeg::start).collect();
+            for (knot, segment) in contour.knots.iter().zip(solution.curve.segments()) {
+                assert!(ends.contains(&knot.point), "{accuracy:e}: {knot:?}");
+                let line = PathSeg::Line(Line::new(segment.start(), segment.end()));
+                assert!(!segment.is_line() || pieces.contains(&line));
+            }
+            assert_eq!(pieces.first().map(PathSeg::start), pieces.last().map(PathSeg::end));
+        }
+    }
 }
