@@ -59,38 +59,39 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
     }
 
     /// Weakens what is asked where the run doesn't settle, until it does: joins to G2 and then to
-    /// G1, curvatures given at ends to none. With G1 everywhere each segment stands alone and can
-    /// be drawn unless it would have to close into a circle; such a one becomes a line.
+    /// G1, first at the most strained knots of each bad stretch, then at more of them; curvatures
+    /// given at bad ends to none. With G1 everywhere each segment stands alone and can be drawn
+    /// unless it would have to close into a circle; such a one becomes a line.
     ///
     /// Returns the solution and the run as weakened.
     fn relax(&self, run: &Run, first: Solved) -> (Solved, Run) {
-        /// Rounds of each kind; every round widens what it weakens.
-        const ROUNDS: usize = 3;
+        /// Rounds of each kind; every round doubles what it weakens.
+        const ROUNDS: u32 = 4;
         let n = run.knots.len();
         let mut weaker = run.clone();
         let mut budget = strategy::budget(n) / 2;
         let mut iterations = first.iterations;
         let mut last = first;
         for join in [Join::G2, Join::G1] {
-            for round in 0..ROUNDS {
+            for round in 1..=ROUNDS {
                 let bad: Vec<bool> = (0..n).map(|i| !(last.residuals[i] <= UNSETTLED)).collect();
-                for i in 0..n {
-                    let near = (0..=round).any(|d| {
-                        bad[(i + d) % n] && (run.closed || i + d < n)
-                            || bad[(i + n - d % n) % n] && (run.closed || d <= i)
-                    });
-                    let knot = &mut weaker.knots[i];
-                    if near && !is_interior(run, i) {
-                        knot.curvature = None;
-                    } else if near && knot.join != Join::G1 {
-                        knot.join = join;
-                    }
-                }
+                let stretches = (0..n).filter(|&i| bad[i] && !bad[(i + n - 1) % n]).count().max(1);
+                let mut candidates: Vec<usize> = (0..n)
+                    .filter(|&i| bad[i] && is_interior(run, i))
+                    .filter(|&i| {
+                        !matches!(weaker.knots[i].join, Join::G1) && weaker.knots[i].join != join
+                    })
+                    .collect();
+                candidates.sort_by(|&a, &b| strain(run, b).total_cmp(&strain(run, a)));
+                candidates.truncate(stretches << round);
+                candidates.iter().for_each(|&i| weaker.knots[i].join = join);
+                let ends = (0..n).filter(|&i| bad[i] && !is_interior(run, i));
+                ends.for_each(|i| weaker.knots[i].curvature = None);
                 let solved = self.solve_split(&weaker, &mut budget);
                 iterations += solved.iterations;
                 last = Solved { iterations, ..solved };
                 if last.is_solved() {
-                    return (last, weaker);
+                    return self.restore(run, weaker, last);
                 }
             }
         }
@@ -115,6 +116,27 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
         // Nothing is asked any more where a line was drawn.
         last.residuals.iter_mut().filter(|r| !(**r <= SOLVED)).for_each(|r| *r = 0.0);
         (last, weaker)
+    }
+
+    /// Asks again for what was weakened, knot by knot, the least strained first, and keeps what
+    /// plain Newton iteration solves.
+    fn restore(&self, run: &Run, mut weaker: Run, mut solved: Solved) -> (Solved, Run) {
+        /// Segments that the trials may solve for in all.
+        const MOST_WORK: usize = 5000;
+        let mut weakened: Vec<usize> =
+            (0..run.knots.len()).filter(|&i| run.knots[i].join != weaker.knots[i].join).collect();
+        weakened.sort_by(|&a, &b| strain(run, a).total_cmp(&strain(run, b)));
+        weakened.truncate(MOST_WORK / run.knots.len());
+        for i in weakened {
+            let mut trial = weaker.clone();
+            trial.knots[i].join = run.knots[i].join;
+            let attempt = self.solve_split(&trial, &mut 0);
+            if attempt.is_solved() {
+                let iterations = solved.iterations + attempt.iterations;
+                (solved, weaker) = (Solved { iterations, ..attempt }, trial);
+            }
+        }
+        (solved, weaker)
     }
 
     /// Solves a run without G1 knots.
@@ -217,6 +239,14 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
 
 fn is_interior(run: &Run, i: usize) -> bool {
     run.closed || (i > 0 && i + 1 < run.knots.len())
+}
+
+/// How hard it is to be smooth at a knot: large for sharp turns and for neighbours at very different
+/// distances.
+fn strain(run: &Run, i: usize) -> f64 {
+    let n = run.knots.len();
+    let (before, after) = (run.chord((i + n - 1) % n).hypot(), run.chord(i).hypot());
+    (before / after).ln().abs() + run.knots[i].turn.abs()
 }
 
 /// What the weakened run no longer asks.

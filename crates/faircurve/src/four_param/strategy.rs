@@ -71,6 +71,10 @@ pub(super) fn solve<F: FourParamFamily>(
     if let Some(round) = solve_round(system, matrix, arcs()) {
         return round;
     }
+    if *budget == 0 {
+        system.set_state(&plain_state);
+        return plain;
+    }
     let mut rounded = system.rounded();
     let mut rescue = Rescue::new(&rounded, *budget);
     rescue.run(&mut rounded, matrix);
