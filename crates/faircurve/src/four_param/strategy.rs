@@ -4,12 +4,13 @@
 //! 1. **Newton** from straight segments, each segment's step limited on its own, so that good
 //!    stretches settle while bad ones still bounce. Nearly all real contours end here. Two and three
 //!    knots, and knots on a circle, start from arcs, which are the solution.
-//! 2. **Mending.** A stretch that doesn't settle, or loops, is restarted alone, its rim held, with
-//!    other *windings* and other seeds, until it settles. Windings decide hard cases: a knot at
-//!    which the chords turn by t may have to be joined as t ∓ 2π, the other way round.
-//! 3. **Growing.** Where most of the run is bad, it is built anew knot by knot: each step adds one
-//!    and lets the last few settle with a free end, in the few windings nearest to the natural one.
-//!    Then what is left is mended, and the whole run solved on from there.
+//! 2. **Mending**, where few knots are bad. A stretch that doesn't settle, or loops, is restarted
+//!    alone, its rim held, with other *windings* and other seeds, until it settles. Windings decide
+//!    hard cases: a knot at which the chords turn by t may have to be joined as t ∓ 2π, the other
+//!    way round.
+//! 3. **Growing**, where something is still bad. The run is built anew knot by knot: each step adds
+//!    one and lets the last few settle with a free end, in the few windings nearest to the natural
+//!    one. What is left is mended, and the whole run solved on from there.
 //!
 //! The search sees rounded numbers, so that it takes the same course however the drawing is moved,
 //! turned or scaled; the last word is Newton's, on the exact ones. It is deterministic: seeds are
@@ -153,12 +154,18 @@ impl Rescue {
         system: &mut RunSystem<'_, F>,
         matrix: &mut BlockTridiagonal<2>,
     ) {
+        /// With fewer unsettled knots than this, the rest is good ground for mending.
+        const FEW: f64 = 0.3;
         /// Growing costs at least this much a knot.
         const COST: usize = 40;
         let n = system.knots.len();
         let outcome = self.newton(system, matrix, LONG);
         let (mut best, mut least) = (system.state(), (Badness::of(system), outcome.residual));
-        if n > 4 && self.budget > n * COST {
+        let mostly_good = (least.0.unsettled as f64) < FEW * n as f64;
+        if mostly_good {
+            self.mend(system);
+        }
+        if n > 4 && self.budget > n * COST && Badness::of(system).unsettled > 0 {
             self.grow(system);
             let (grown, badness) = (system.state(), Badness::of(system));
             self.newton(system, matrix, Limits { iterations: 8, patience: 8 });
