@@ -6,6 +6,7 @@ use crate::frame::{ChordAngles, EndCurvature, circle_tangent, direction, wrap_an
 use crate::numeric::block_tridiagonal::BlockTridiagonal;
 use crate::numeric::newton::{Limits, System, newton};
 use crate::plan::Run;
+use crate::segment::Segment;
 use crate::spline::{Adaptation, Place, RunSolution};
 
 /// A two-parameter family whose tangents are found by continuity of curvature.
@@ -24,22 +25,36 @@ impl<F: TwoParamFamily> TwoParamSpline<F> {
     pub fn solve_run(&self, run: &Run) -> RunSolution {
         let mut system = TangentSystem::new(&self.family, run);
         let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
-        let outcome = newton(&mut system, &mut matrix, Limits { iterations: 60, patience: 30 });
+        let outcome = newton(&mut system, &mut matrix, Limits { iterations: 16, patience: 8 });
         let n = run.knots.len();
-        let segments = (0..run.segment_count())
+        let segments: Vec<Segment> = (0..run.segment_count())
             .map(|i| {
                 let (start, end) = (run.knots[i].point, run.knots[(i + 1) % n].point);
                 self.family.shape(start, end, system.angles(i))
             })
             .collect();
         RunSolution {
+            residual: outcome.residual.max(jump(run, &segments)),
             segments,
             adapted: system.adapted,
             iterations: outcome.iterations,
-            residual: outcome.residual,
             ..RunSolution::default()
         }
     }
+}
+
+/// The largest jump of direction, or of curvature times the harmonic mean of the chords, at a knot.
+fn jump(run: &Run, segments: &[Segment]) -> f64 {
+    let n = run.knots.len();
+    let interior = if run.closed { 0..n } else { 1..n - 1 };
+    let jumps = interior.map(|i| {
+        let (before, after) = (&segments[(i + n - 1) % n], &segments[i]);
+        let (a, b) = (before.chord_length(), after.chord_length());
+        let (arriving, leaving) = (before.at(before.length()), after.at(0.0));
+        let curvature = (leaving.curvature - arriving.curvature) * 2.0 * a * b / (a + b);
+        curvature.abs().max(wrap_angle(leaving.direction - arriving.direction).abs())
+    });
+    jumps.fold(0.0, f64::max)
 }
 
 /// What must hold at a knot.
@@ -47,8 +62,8 @@ impl<F: TwoParamFamily> TwoParamSpline<F> {
 enum Equation {
     /// Curvature is the same on both sides.
     Continuous,
-    /// A free end.
-    Natural(NaturalEnd),
+    /// A free end whose segment is symmetric.
+    Arc,
     /// The angle from the knot's own side is given.
     Direction(f64),
     /// The curvature at an end is given, in the run's units.
@@ -91,7 +106,10 @@ impl<'a, F: TwoParamFamily> TangentSystem<'a, F> {
                         })
                     }
                     (true, None, Some(curvature)) => Equation::Curvature(curvature),
-                    (true, None, None) => Equation::Natural(family.natural_end()),
+                    (true, None, None) => match family.natural_end() {
+                        NaturalEnd::Arc => Equation::Arc,
+                        NaturalEnd::ZeroCurvature => Equation::Curvature(0.0),
+                    },
                     (false, _, given) => {
                         if given.is_some() {
                             adapted.push(ignored(i));
@@ -165,6 +183,71 @@ impl<'a, F: TwoParamFamily> TangentSystem<'a, F> {
     }
 }
 
+/// One linearised equation: its value, and the derivatives by the knot's own unknown and those of its
+/// neighbours.
+#[derive(Clone, Copy, Debug, Default)]
+struct Row {
+    value: f64,
+    lower: f64,
+    diagonal: f64,
+    upper: f64,
+}
+
+impl<F: TwoParamFamily> TangentSystem<'_, F> {
+    /// The equation of knot `i`. Its unknown is `theta0` of the segment after it, which is the turn
+    /// less `theta1` of the one before; at the end of an open run, `theta1` itself.
+    fn row(&self, i: usize) -> Row {
+        let n = self.tangents.len();
+        let left = if i > 0 { Some(i - 1) } else { self.closed.then_some(n - 1) };
+        let right = if i + 1 < n || self.closed { Some(i) } else { None };
+        // How theta1 of the segment after responds to the unknown of the next knot.
+        let next = if !self.closed && i + 2 == n { 1.0 } else { -1.0 };
+        match (self.equations[i], left, right) {
+            (Equation::Continuous, Some(l), Some(r)) => {
+                let (cl, cr) = (self.chords[l].sqrt(), self.chords[r].sqrt());
+                let v = Turned::new(self.responses[l].value[1], cl, cr);
+                let w = Turned::new(self.responses[r].value[0], cr, cl);
+                let [l0, l1] =
+                    self.responses[l].by_angle[1].map(|by| v.angle_by(&Turned::new(by, cl, cr)));
+                let [r0, r1] =
+                    self.responses[r].by_angle[0].map(|by| w.angle_by(&Turned::new(by, cr, cl)));
+                Row { value: v.angle_to(&w), lower: -l0, diagonal: l1 + r0, upper: r1 * next }
+            }
+            (Equation::Direction(angle), _, _) => {
+                Row { value: self.tangents[i] - angle, diagonal: 1.0, ..Row::default() }
+            }
+            (Equation::Arc, _, Some(r)) => {
+                let ChordAngles { theta0, theta1 } = self.angles(r);
+                Row { value: theta0 - theta1, diagonal: 1.0, upper: -next, lower: 0.0 }
+            }
+            (Equation::Arc, Some(l), None) => {
+                let ChordAngles { theta0, theta1 } = self.angles(l);
+                Row { value: theta1 - theta0, diagonal: 1.0, lower: -1.0, upper: 0.0 }
+            }
+            (Equation::Curvature(curvature), _, Some(r)) => {
+                let (value, [by0, by1]) = self.end_curvature(r, 0, curvature);
+                Row { value, diagonal: by0, upper: by1 * next, lower: 0.0 }
+            }
+            (Equation::Curvature(curvature), Some(l), None) => {
+                let (value, [by0, by1]) = self.end_curvature(l, 1, curvature);
+                Row { value, diagonal: by1, lower: by0, upper: 0.0 }
+            }
+            // A knot without a segment, or continuity at an end: nothing to ask.
+            _ => Row { diagonal: 1.0, ..Row::default() },
+        }
+    }
+
+    /// How far the curvature at the start (0) or end (1) of a segment is from the one wanted, in the
+    /// run's units, and how that responds to the segment's angles.
+    fn end_curvature(&self, segment: usize, end: usize, wanted: f64) -> (f64, [f64; 2]) {
+        let response = &self.responses[segment];
+        let own = Turned::new(response.value[end], 1.0, 1.0);
+        let wanted = Turned { num: wanted * self.chords[segment], den: 1.0 };
+        let by = response.by_angle[end].map(|by| own.angle_by(&Turned::new(by, 1.0, 1.0)));
+        (wanted.angle_to(&own), by)
+    }
+}
+
 fn ignored(knot: usize) -> Adaptation {
     Adaptation { place: Place::Knot(knot), asked: "curvature", got: "ignored" }
 }
@@ -179,75 +262,12 @@ impl<F: TwoParamFamily> System<1> for TangentSystem<'_, F> {
         }
         let mut residual = 0.0f64;
         for i in 0..n {
-            let left = if i > 0 { Some(i - 1) } else { self.closed.then_some(n - 1) };
-            let right = if i + 1 < n || self.closed { Some(i) } else { None };
-            // Signed effect of the unknowns: it is theta0 to the right, turn − theta1 to the left
-            // (theta1 itself at an open end).
-            let (mut lower, mut diagonal, mut upper, value);
-            (lower, diagonal, upper) = (0.0, 0.0, 0.0);
-            let after_is_end = !self.closed && i + 2 == n;
-            match (self.equations[i], left, right) {
-                (Equation::Continuous, Some(l), Some(r)) => {
-                    let (cl, cr) = (self.chords[l].sqrt(), self.chords[r].sqrt());
-                    let v = Turned::new(self.responses[l].value[1], cl, cr);
-                    let w = Turned::new(self.responses[r].value[0], cr, cl);
-                    value = (v.den * w.num - v.num * w.den).atan2(v.den * w.den + v.num * w.num);
-                    let by = |end: EndCurvature, at: &Turned, a: f64, b: f64| {
-                        at.angle_by(&Turned::new(end, a, b))
-                    };
-                    let left_by = self.responses[l].by_angle[1].map(|e| by(e, &v, cl, cr));
-                    let right_by = self.responses[r].by_angle[0].map(|e| by(e, &w, cr, cl));
-                    lower -= left_by[0];
-                    diagonal += left_by[1] + right_by[0];
-                    upper += right_by[1] * if after_is_end { 1.0 } else { -1.0 };
-                }
-                (Equation::Direction(angle), _, _) => {
-                    diagonal = 1.0;
-                    value = self.tangents[i] - angle;
-                }
-                (Equation::Natural(NaturalEnd::Arc), _, Some(r)) => {
-                    let angles = self.angles(r);
-                    value = angles.theta0 - angles.theta1;
-                    diagonal = 1.0;
-                    upper = if after_is_end { -1.0 } else { 1.0 };
-                }
-                (Equation::Natural(NaturalEnd::Arc), Some(l), None) => {
-                    let angles = self.angles(l);
-                    value = angles.theta1 - angles.theta0;
-                    diagonal = 1.0;
-                    lower = -1.0;
-                }
-                (equation, l, r) => {
-                    let target = match equation {
-                        Equation::Curvature(curvature) => curvature,
-                        _ => 0.0,
-                    };
-                    let (segment, end) = match (l, r) {
-                        (_, Some(r)) => (r, 0),
-                        (Some(l), None) => (l, 1),
-                        (None, None) => (0, 0),
-                    };
-                    let chord = self.chords[segment];
-                    let own = Turned::new(self.responses[segment].value[end], 1.0, 1.0);
-                    let wanted = Turned { num: target * chord, den: 1.0 };
-                    value = (wanted.den * own.num - wanted.num * own.den)
-                        .atan2(wanted.den * own.den + wanted.num * own.num);
-                    let by = self.responses[segment].by_angle[end]
-                        .map(|e| own.angle_by(&Turned::new(e, 1.0, 1.0)));
-                    if end == 0 {
-                        diagonal = by[0];
-                        upper = by[1] * if after_is_end { 1.0 } else { -1.0 };
-                    } else {
-                        diagonal = by[1];
-                        lower = by[0];
-                    }
-                }
-            }
-            residual = if value.is_nan() { f64::NAN } else { residual.max(value.abs()) };
-            matrix.lower[i] = [[lower]];
-            matrix.diagonal[i] = [[diagonal]];
-            matrix.upper[i] = [[upper]];
-            matrix.right[i] = [-value];
+            let row = self.row(i);
+            residual = if row.value.is_nan() { f64::NAN } else { residual.max(row.value.abs()) };
+            matrix.lower[i] = [[row.lower]];
+            matrix.diagonal[i] = [[row.diagonal]];
+            matrix.upper[i] = [[row.upper]];
+            matrix.right[i] = [-row.value];
         }
         residual
     }
@@ -264,7 +284,8 @@ impl<F: TwoParamFamily> System<1> for TangentSystem<'_, F> {
     }
 }
 
-/// Curvature times √(product of the two chords), as the direction of a vector: DESIGN's residual.
+/// Curvature times √(product of the two chords), as the direction of a vector: see
+/// `docs/decisions/0002-unknowns-and-residual.md`.
 struct Turned {
     num: f64,
     den: f64,
@@ -273,6 +294,13 @@ struct Turned {
 impl Turned {
     fn new(end: EndCurvature, own: f64, other: f64) -> Self {
         Turned { num: end.num * other, den: end.den * own }
+    }
+
+    /// The angle to turn by to come to the other vector: zero where curvatures agree, whatever
+    /// their size, and half a turn off where a curve would arrive forwards and leave backwards.
+    fn angle_to(&self, other: &Turned) -> f64 {
+        (self.den * other.num - self.num * other.den)
+            .atan2(self.den * other.den + self.num * other.num)
     }
 
     /// Derivative of the vector's angle.
