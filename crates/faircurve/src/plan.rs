@@ -1,8 +1,9 @@
 //! A contour made ready to be solved: what every spline needs settled, settled once.
 //!
 //! In order: numbers are checked; each knot's join is resolved (the spline's default, and its own
-//! smooth join where it lacks the one asked); coincident neighbours become one knot; start and
-//! direction become canonical, so that the result can't depend on them; size is normalised; straight segments are found; and the rest is split at corners into [`Run`]s.
+//! smooth join where it lacks the one asked); size is normalised; coincident neighbours become one
+//! knot; straight segments are found; the rest is split at corners into [`Run`]s; and each run's
+//! start and direction become canonical, so that the result can't depend on them.
 //! [`Plan::assemble`] puts the solved runs back together in the input's numbering.
 
 use std::fmt;
