@@ -78,9 +78,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
                 let stretches = (0..n).filter(|&i| bad[i] && !bad[(i + n - 1) % n]).count().max(1);
                 let mut candidates: Vec<usize> = (0..n)
                     .filter(|&i| bad[i] && is_interior(run, i))
-                    .filter(|&i| {
-                        !matches!(weaker.knots[i].join, Join::G1) && weaker.knots[i].join != join
-                    })
+                    .filter(|&i| ![join, Join::G1].contains(&weaker.knots[i].join))
                     .collect();
                 candidates.sort_by(|&a, &b| strain(run, b).total_cmp(&strain(run, a)));
                 candidates.truncate(stretches << round);
@@ -244,9 +242,14 @@ fn is_interior(run: &Run, i: usize) -> bool {
 /// How hard it is to be smooth at a knot: large for sharp turns and for neighbours at very different
 /// distances.
 fn strain(run: &Run, i: usize) -> f64 {
+    chord_ratio(run, i).ln() + run.knots[i].turn.abs()
+}
+
+/// The longer of the two chords at a knot over the shorter.
+fn chord_ratio(run: &Run, i: usize) -> f64 {
     let n = run.knots.len();
     let (before, after) = (run.chord((i + n - 1) % n).hypot(), run.chord(i).hypot());
-    (before / after).ln().abs() + run.knots[i].turn.abs()
+    (before / after).max(after / before)
 }
 
 /// What the weakened run no longer asks.
@@ -284,9 +287,7 @@ fn reason(run: &Run, i: usize) -> String {
         return "no curve was found that starts or ends in this way".to_owned();
     }
     let turn = run.knots[i].turn.abs().to_degrees().round();
-    let n = run.knots.len();
-    let (before, after) = (run.chord((i + n - 1) % n).hypot(), run.chord(i).hypot());
-    let ratio = (before / after).max(after / before);
+    let ratio = chord_ratio(run, i);
     let mut words =
         format!("no curve was found that joins in this way where the knots turn {turn}°");
     if ratio >= 10.0 {

@@ -65,7 +65,7 @@ pub(super) fn solve<F: FourParamFamily>(
         return round;
     }
     let plain = newton(system, matrix, PLAIN);
-    if plain.residual <= SOLVED && Badness::of(system).loops == 0 {
+    if plain.residual <= SOLVED && !loops(system).any(|_| true) {
         return plain;
     }
     let plain_state = system.state();
@@ -90,7 +90,7 @@ pub(super) fn solve<F: FourParamFamily>(
     Outcome { iterations, ..rescued }
 }
 
-/// Knots on a circle: the circle it is, however much of it lies between two of them.
+/// Knots on a circle: the circle it is, though most of it may lie between two of them.
 fn solve_round<F: FourParamFamily>(
     system: &mut RunSystem<'_, F>,
     matrix: &mut BlockTridiagonal<2>,
@@ -119,7 +119,7 @@ impl Badness {
     fn of<F: FourParamFamily>(system: &RunSystem<'_, F>) -> Self {
         Badness {
             unsettled: (0..system.knots.len()).filter(|&i| is_unsettled(system, i)).count(),
-            loops: (0..system.parameters.len()).filter(|&i| is_loop(system, i)).count(),
+            loops: loops(system).count(),
         }
     }
 }
@@ -128,8 +128,9 @@ fn is_unsettled<F: FourParamFamily>(system: &RunSystem<'_, F>, knot: usize) -> b
     !(system.knot_residual(knot) <= UNSETTLED)
 }
 
-fn is_loop<F: FourParamFamily>(system: &RunSystem<'_, F>, segment: usize) -> bool {
-    !(system.straightness(segment) * LOOP > 1.0)
+/// The segments that loop.
+fn loops<F: FourParamFamily>(system: &RunSystem<'_, F>) -> impl Iterator<Item = usize> {
+    (0..system.parameters.len()).filter(|&i| !(system.straightness(i) * LOOP > 1.0))
 }
 
 /// Stages 2 and 3.
@@ -237,18 +238,17 @@ impl Rescue {
         let mut window = if from == to { system.clone() } else { system.window(from, to) };
         if attempt.is_multiple_of(GROWN) && from != to {
             self.grow_open(&mut window);
-            let residual = self.solve_window(&mut window).residual;
-            return (residual <= UNSETTLED).then_some(window);
-        }
-        let amplitude = (attempt % 4) as f64 / 3.0;
-        for knot in &mut window.knots {
-            knot.turn = wrap_angle(knot.turn);
-            if knot.turn.abs() > GENTLE && self.random.next() < SHARE_TURNED {
-                turn_round(knot);
+        } else {
+            let amplitude = (attempt % 4) as f64 / 3.0;
+            for knot in &mut window.knots {
+                knot.turn = wrap_angle(knot.turn);
+                if knot.turn.abs() > GENTLE && self.random.next() < SHARE_TURNED {
+                    turn_round(knot);
+                }
             }
-        }
-        for parameters in &mut window.parameters {
-            *parameters = self.seed(amplitude);
+            for parameters in &mut window.parameters {
+                *parameters = self.seed(amplitude);
+            }
         }
         let outcome = self.solve_window(&mut window);
         (outcome.residual <= UNSETTLED).then_some(window)
@@ -270,9 +270,7 @@ impl Rescue {
         let n = system.knots.len();
         let inside = if to > from { to - from } else { to + n - from };
         if inside + 2 * REACH >= n {
-            let mut whole = system.clone();
-            self.solve_window(&mut whole);
-            system.adopt(&whole, 0);
+            self.solve_window(system);
         } else {
             let (from, to) = if system.is_closed() {
                 ((from + n - REACH) % n, (to + REACH) % n)
@@ -289,9 +287,7 @@ impl Rescue {
     fn grow<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>) {
         let mut open = if system.is_closed() { system.opened() } else { system.clone() };
         self.grow_open(&mut open);
-        system.parameters = open.parameters;
-        system.knots.iter_mut().zip(&open.knots).for_each(|(to, from)| to.turn = from.turn);
-        system.evaluate();
+        system.set_state(&open.state());
     }
 
     /// Builds an open run knot by knot.
@@ -323,10 +319,8 @@ impl Rescue {
                         break;
                     }
                 }
-                if straightest.is_some() && attempt + 1 >= ATTEMPTS_AT_LOOPS {
-                    break;
-                }
-                if self.budget == 0 {
+                let enough = straightest.is_some() && attempt + 1 >= ATTEMPTS_AT_LOOPS;
+                if enough || self.budget == 0 {
                     break;
                 }
             }
@@ -399,7 +393,7 @@ fn bad_stretches<F: FourParamFamily>(
     let n = system.knots.len();
     let closed = system.is_closed();
     let mut near: Vec<bool> = (0..n).map(|i| is_unsettled(system, i)).collect();
-    for segment in (0..system.parameters.len()).filter(|&i| is_loop(system, i)) {
+    for segment in loops(system) {
         near[segment] = true;
         near[(segment + 1) % n] = true;
     }

@@ -227,7 +227,7 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
         (self.parameters.clone(), self.knots.iter().map(|knot| knot.turn).collect())
     }
 
-    /// Comes back to a state.
+    /// Comes back to a state, or takes over that of the same run [`opened`](Self::opened).
     pub(super) fn set_state(&mut self, state: &(Vec<[f64; 4]>, Vec<f64>)) {
         self.parameters.clone_from(&state.0);
         self.knots.iter_mut().zip(&state.1).for_each(|(knot, turn)| knot.turn = *turn);
@@ -427,15 +427,11 @@ fn harmonic_mean(chords: &[f64], left: Option<usize>, right: Option<usize>) -> f
 /// The equations of a knot at a window's rim: its own that concern the side within alone, filled up
 /// with what is held.
 fn rim(own: [Equation; 2], within: Side, held: [Equation; 2]) -> [Equation; 2] {
-    let mut equations: Vec<Equation> = own
-        .into_iter()
-        .filter(|equation| match equation {
-            Equation::Condition(Condition::Zero(side, _)) => *side == within,
-            _ => false,
-        })
-        .collect();
-    equations.extend(held);
-    [equations[0], equations[1]]
+    let kept = own.into_iter().filter(|equation| {
+        matches!(equation, Equation::Condition(Condition::Zero(side, _)) if *side == within)
+    });
+    let mut equations = kept.chain(held);
+    held.map(|held| equations.next().unwrap_or(held))
 }
 
 /// The segments before and after knot `i`.
