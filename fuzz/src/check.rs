@@ -1,7 +1,7 @@
 //! What holds of every solution and of its Béziers, whatever the numbers.
 
 use faircurve::convert::to_bezpath;
-use faircurve::kurbo::{BezPath, CubicBez, ParamCurve, PathEl, Point, Rect};
+use faircurve::kurbo::{BezPath, ParamCurve, PathEl, PathSeg, Point, Rect};
 use faircurve::tolerance::SOLVED;
 use faircurve::{Contour, Curve, CurvePoint, Join, Place, Segment, Solution, Status};
 
@@ -186,20 +186,18 @@ fn deviation(curve: &Curve, path: &BezPath, accuracy: f64) {
     let Some(bounds) = curve.bounding_box() else { return };
     let size = bounds.width().max(bounds.height()).max(largest_coordinate(bounds.center()));
     let length = curve.length();
-    let longest_kappa =
+    let largest_kappa =
         curve.segments().iter().flat_map(Segment::kappa).fold(0.0f64, |a, k| a.max(k.abs()));
     // What rounding and the limit on the number of pieces may spoil is not asked for.
-    if !(accuracy >= 1e-8 * (size + length)) || !accuracy.is_finite() || longest_kappa > 1e3 {
+    let is_sensible = accuracy.is_finite() && accuracy >= 1e-8 * (size + length);
+    if !is_sensible || largest_kappa > 1e3 {
         return;
     }
-    let cubics = path.segments().filter_map(|segment| match segment {
-        faircurve::kurbo::PathSeg::Cubic(cubic) => Some(cubic),
-        _ => None,
-    });
-    for CubicBez { p0, p1, p2, p3 } in cubics.take(MOST_CUBICS) {
+    let is_cubic = |segment: &PathSeg| matches!(segment, PathSeg::Cubic(_));
+    for cubic in path.segments().filter(is_cubic).take(MOST_CUBICS) {
         for t in [0.15, 0.5, 0.85] {
-            let point = CubicBez::new(p0, p1, p2, p3).eval(t);
-            let Some((_, _, off)) = curve.nearest(point, 0.1 * accuracy) else { continue };
+            let nearest = curve.nearest(cubic.eval(t), 0.1 * accuracy);
+            let (_, _, off) = nearest.expect("a curve with a Bézier has segments");
             assert!(off <= 2.0 * accuracy, "a Bézier is off by {off:e}, not {accuracy:e}");
         }
     }

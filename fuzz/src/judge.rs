@@ -42,8 +42,9 @@ pub fn violation(contour: &Contour, solution: &Solution) -> (f64, String) {
         .collect();
     let mut worst = (0.0, "nothing".to_owned());
     let mut require = |knot: usize, what: &str, violation: f64| {
-        if !(violation.abs() <= worst.0) {
-            worst = (violation.abs(), format!("{what} at knot {knot}"));
+        let violation = if violation.is_finite() { violation.abs() } else { f64::INFINITY };
+        if violation > worst.0 {
+            worst = (violation, format!("{what} at knot {knot}"));
         }
     };
     let pairs = segments.iter().zip(segments.iter().cycle().skip(1));
