@@ -409,6 +409,7 @@ impl Plan {
             );
             report.iterations = report.iterations.max(solution.iterations);
             report.residual = report.residual.max(solution.residual);
+            report.stage = report.stage.max(solution.stage);
         }
         report.relaxed.sort_by_key(|relaxation| relaxation.place);
         report.adapted.sort_by_key(|adaptation| adaptation.place);
