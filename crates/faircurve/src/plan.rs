@@ -574,7 +574,8 @@ impl NormalFrame {
     }
 }
 
-/// Turns knots into nodes, one for each stretch of coincident neighbours.
+/// Turns knots into nodes, one for each stretch of coincident neighbours. What coincides with a
+/// stretch's first knot belongs to it, too: step by step it may lead away and back again.
 fn merge_coincident(contour: &Contour, joins: &[Join], frame: &NormalFrame) -> Vec<Node> {
     let knots = &contour.knots;
     let count = knots.len();
@@ -591,7 +592,7 @@ fn merge_coincident(contour: &Contour, joins: &[Join], frame: &NormalFrame) -> V
         };
         let (tangent_out, curvature_out, tension_out) = last_of(knot);
         match nodes.last_mut() {
-            Some(node) if coincide(i - 1, i) => {
+            Some(node) if coincide(i - 1, i) || coincide(node.first, i) => {
                 node.join = merged_join(node.join, joins[i]);
                 node.last = i;
                 (node.tangent_out, node.curvature_out) = (tangent_out, curvature_out);
@@ -612,7 +613,10 @@ fn merge_coincident(contour: &Contour, joins: &[Join], frame: &NormalFrame) -> V
         }
     }
     // A first point repeated at the end.
-    if contour.closed && nodes.len() > 1 && coincide(count - 1, 0) {
+    while contour.closed
+        && let [_, .., tail] = &nodes[..]
+        && (coincide(tail.last, 0) || coincide(tail.first, 0))
+    {
         let tail = nodes.pop().unwrap_or_else(|| nodes[0].clone());
         let head = &mut nodes[0];
         head.first = tail.first;

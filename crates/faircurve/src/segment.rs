@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use kurbo::{Point, Rect, Vec2};
 use num_complex::Complex64;
 
-use crate::frame::{ChordAngles, direction};
+use crate::frame::{ChordAngles, direction, turning};
 use crate::numeric::roots::{monotone_root, roots_between};
 use crate::numeric::spiro_integral::{
     angle, curvature_jet, spiro_integral, spiro_integral_between, sub_parameters,
@@ -261,14 +261,21 @@ impl Segment {
         }
     }
 
-    /// The same segment with its ends at other points, which must span a chord of the same direction
-    /// up to rounding: what scaling by a power of two does, or giving a merged knot its own place.
+    /// The same segment scaled and turned onto another chord, which must not be zero: what undoing
+    /// a scale by a power of two does, or giving a merged knot its own place.
     pub(crate) fn moved_to(&self, start: Point, end: Point) -> Segment {
         match self.shape {
             Shape::Line => Segment::line(start, end),
             Shape::Spiral(_) => {
-                let scale = (end - start).hypot() / self.chord_length();
-                Segment { start, end, length: self.length * scale, ..*self }
+                let (from, to) = (self.end - self.start, end - start);
+                Segment {
+                    start,
+                    end,
+                    length: self.length * (to.hypot() / from.hypot()),
+                    // Exactly 0 where the chord has only been scaled.
+                    middle_direction: self.middle_direction + turning(from, to),
+                    ..*self
+                }
             }
         }
     }

@@ -11,7 +11,7 @@ use crate::segment::Segment;
 /// units.
 ///
 /// Knots are end points of Béziers, bit for bit; tangents there are those of the curve; straight
-/// segments are lines; segments of length 0 leave no trace; a closed curve ends on its start and
+/// segments are lines; segments that end where they start leave no trace; a closed curve ends on its start and
 /// closes its path. An empty curve is an empty path.
 ///
 /// The deviation is checked at 16 places of each Bézier with a margin, not proved. Accuracies below
@@ -42,11 +42,11 @@ pub fn to_bezpath(curve: &Curve, accuracy: f64) -> BezPath {
 }
 
 fn append_segment(path: &mut BezPath, segment: &Segment, accuracy: f64) {
-    if segment.length() == 0.0 {
-        return;
-    }
     if segment.is_line() {
-        path.line_to(segment.end());
+        // The length of the very smallest is rounded to 0.
+        if segment.start() != segment.end() {
+            path.line_to(segment.end());
+        }
         return;
     }
     for cubic in cubic_fit::cubics(segment, accuracy) {
