@@ -1,11 +1,11 @@
 //! Synthetic classes, ordinary and hard, through both programs.
 
-use std::io::{IsTerminal, Write};
-
+use faircurve_format::Document;
 use serde::Serialize;
 use serde_json::json;
 
 use crate::generate::{Class, classes};
+use crate::progress::Progress;
 use crate::report::{Report, describe, list, percent, table, tiny};
 use crate::rivals::{Ours, TRULY_SOLVED, Theirs};
 use crate::{Failure, spiro};
@@ -94,18 +94,18 @@ pub(crate) fn run(filter: &str, cases: usize) -> Result<Report, Failure> {
                 if theirs_is_true && !their_loop {
                     t.libspiro_alone += 1;
                     alone.push(format!("{name}: {}", describe(&contour)));
-                    notable.push((format!("alone {name}"), contour.clone()));
+                    notable.push((format!("alone {name}"), Document::unnamed([contour.clone()])));
                 }
             }
             if let Some(falsehood) = ours.falsehood(&contour) {
                 t.falsehoods += 1;
                 alarms.push(format!("{name}: {falsehood}"));
-                notable.push((format!("false {name}"), contour.clone()));
+                notable.push((format!("false {name}"), Document::unnamed([contour.clone()])));
             }
             if !ours.is_finite() {
                 t.not_finite += 1;
                 alarms.push(format!("{name}: a number isn't finite"));
-                notable.push((format!("not-finite {name}"), contour.clone()));
+                notable.push((format!("not-finite {name}"), Document::unnamed([contour.clone()])));
             }
         }
         tallies.push(t);
@@ -170,35 +170,6 @@ fn class_table(tallies: &[Tally]) -> String {
         "alone",
     ];
     table(header, rows)
-}
-
-/// A line on the terminal that says how far it is; silent elsewhere.
-struct Progress {
-    done: usize,
-    all: usize,
-    shows: bool,
-}
-
-impl Progress {
-    fn new(all: usize) -> Self {
-        Progress { done: 0, all, shows: std::io::stderr().is_terminal() }
-    }
-
-    fn step(&mut self, what: &str) {
-        self.done += 1;
-        self.write(&format!("\r\x1b[K{}/{} {what}", self.done, self.all));
-    }
-
-    fn done(&self) {
-        self.write("\r\x1b[K");
-    }
-
-    fn write(&self, text: &str) {
-        if self.shows {
-            let mut stderr = std::io::stderr();
-            let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
-        }
-    }
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use faircurve_format::Document;
 use serde::Serialize;
 use serde_json::json;
 
@@ -105,12 +106,12 @@ pub(crate) fn run(contours: &[FontContour]) -> Result<Report, Failure> {
                 "residual_as_claimed": ours.as_claimed,
                 "libspiro": their_verdict,
             }));
-            notable.push((name.clone(), contour.clone()));
+            notable.push((name.clone(), Document::unnamed([contour.clone()])));
         }
         if let Some(falsehood) = ours.falsehood(contour) {
             tally.falsehoods += 1;
             alarms.push(format!("{name}: {falsehood}; {}", describe(contour)));
-            notable.push((name.clone(), contour.clone()));
+            notable.push((name.clone(), Document::unnamed([contour.clone()])));
         }
         if !ours.is_finite() {
             tally.not_finite += 1;

@@ -6,6 +6,9 @@ mod ffi;
 mod fonts;
 mod fonts_input;
 mod generate;
+mod hostile;
+mod hostile_inputs;
+mod progress;
 mod report;
 mod residual;
 mod rivals;
@@ -66,6 +69,22 @@ enum Command {
         #[arg(long, default_value_t = 200)]
         cases: usize,
     },
+    /// Very many inputs that nobody would draw, through faircurve alone
+    Hostile {
+        /// Inputs in all
+        #[arg(long, default_value_t = 1_000_000)]
+        cases: usize,
+        /// Other inputs for every number
+        #[arg(long, default_value_t = 0)]
+        seed: u64,
+    },
+}
+
+impl Command {
+    /// Whether it says nothing about libspiro.
+    fn is_alone(&self) -> bool {
+        matches!(self, Command::Hostile { .. })
+    }
 }
 
 /// Why nothing came of it, and what to do.
@@ -87,7 +106,7 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<Report, Failure> {
-    if !rivals::HAS_LIBSPIRO {
+    if !rivals::HAS_LIBSPIRO && !arguments.command.is_alone() {
         return Err(Failure {
             message: "this gauntlet was built without libspiro".to_owned(),
             hint: "install libspiro-dev and pkg-config, then build it again".to_owned(),
@@ -100,6 +119,7 @@ fn run(arguments: &Arguments) -> Result<Report, Failure> {
             time::run(&fonts_input::read(files)?, *rounds as usize, !fonts_only)
         }
         Command::Classes { filter, cases } => classes::run(filter, *cases),
+        Command::Hostile { cases, seed } => hostile::run(*cases, *seed),
     }
 }
 
