@@ -1,5 +1,6 @@
 //! Synthetic classes, ordinary and hard, through both programs.
 
+use faircurve::{Contour, catalog};
 use faircurve_format::Document;
 use serde::Serialize;
 use serde_json::json;
@@ -7,11 +8,9 @@ use serde_json::json;
 use crate::generate::{Class, classes};
 use crate::progress::Progress;
 use crate::report::{Report, describe, list, percent, table, tiny};
+use crate::residual::LOOP;
 use crate::rivals::{Ours, TRULY_SOLVED, Theirs};
 use crate::{Failure, spiro};
-
-/// A segment longer than this many chords is a loop that no designer wants.
-const LOOP: f64 = 4.0;
 
 /// The counts of one class.
 #[derive(Debug, Default, Serialize)]
@@ -42,6 +41,22 @@ struct Tally {
     libspiro_seconds: f64,
     /// Truly solved by libspiro without a loop, and not by faircurve.
     libspiro_alone: usize,
+}
+
+/// The first contours of the class of that name, each with its own.
+///
+/// # Errors
+/// If there is no such class.
+pub(crate) fn contours(name: &str, cases: usize) -> Result<Vec<(String, Contour)>, Failure> {
+    let class = classes().into_iter().find(|class| class.name == name).ok_or_else(|| Failure {
+        message: format!("there is no class `{name}`"),
+        hint: catalog::suggest(name, classes().iter().map(|class| class.name.as_str())),
+    })?;
+    Ok((0..cases).map(|case| (case_name(&class, case), class.contour(case))).collect())
+}
+
+fn case_name(class: &Class, case: usize) -> String {
+    format!("{} case {case}", class.name)
 }
 
 /// Runs both programs over `cases` contours of each class whose name contains `filter`.
@@ -80,7 +95,7 @@ pub(crate) fn run(filter: &str, cases: usize) -> Result<Report, Failure> {
                 t.refused_input += 1;
                 continue;
             };
-            let name = format!("{} case {case}", class.name);
+            let name = case_name(class, case);
             t.most_iterations = t.most_iterations.max(ours.solution.report.iterations);
             if ours.is_solved() {
                 t.solved += 1;

@@ -12,8 +12,10 @@ mod progress;
 mod report;
 mod residual;
 mod rivals;
+mod search;
 mod tangents;
 mod time;
+mod yardstick;
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -78,12 +80,32 @@ enum Command {
         #[arg(long, default_value_t = 0)]
         seed: u64,
     },
+    /// The best curves that exist, by minutes of search
+    Search {
+        /// SFD files or documents
+        files: Vec<PathBuf>,
+        /// The class of that name instead
+        #[arg(long, conflicts_with = "files", required_unless_present = "files")]
+        class: Option<String>,
+        /// Of a class, the first contours
+        #[arg(long, default_value_t = 20)]
+        cases: usize,
+        /// Time for each contour
+        #[arg(long, default_value_t = 60.0)]
+        seconds: f64,
+        /// Other random starts for every number
+        #[arg(long, default_value_t = 0)]
+        seed: u64,
+        /// Where the best roots are kept [default: the repository's]
+        #[arg(long, value_name = "FOLDER")]
+        yardstick: Option<PathBuf>,
+    },
 }
 
 impl Command {
     /// Whether it says nothing about libspiro.
     fn is_alone(&self) -> bool {
-        matches!(self, Command::Hostile { .. })
+        matches!(self, Command::Hostile { .. } | Command::Search { .. })
     }
 }
 
@@ -119,6 +141,16 @@ fn run(arguments: &Arguments) -> Result<Report, Failure> {
             time::run(&fonts_input::read(files)?, *rounds as usize, !fonts_only)
         }
         Command::Classes { filter, cases } => classes::run(filter, *cases),
+        Command::Search { files, class, cases, seconds, seed, yardstick } => {
+            let contours = match class {
+                Some(class) => classes::contours(class, *cases)?,
+                None => {
+                    fonts_input::read(files)?.into_iter().map(|c| (c.name(), c.contour)).collect()
+                }
+            };
+            let folder = yardstick.clone().unwrap_or_else(yardstick::default_folder);
+            search::run(&contours, *seconds, *seed, &folder)
+        }
         Command::Hostile { cases, seed } => hostile::run(*cases, *seed),
     }
 }

@@ -19,6 +19,9 @@ use faircurve::tolerance::{COINCIDENT, INVISIBLE};
 use faircurve::{Contour, Join};
 use serde::Serialize;
 
+/// A segment longer than this many chords is a loop that no designer wants.
+pub(crate) const LOOP: f64 = 4.0;
+
 /// A segment as either program reports it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Piece {
@@ -503,7 +506,7 @@ fn integral(k: [f64; 4]) -> (f64, f64) {
 }
 
 /// ∫|κ| ds over a segment, radians.
-fn turning_of(k: [f64; 4]) -> f64 {
+pub(crate) fn turning_of(k: [f64; 4]) -> f64 {
     let [k0, k1, k2, k3] = k;
     let mut breaks = vec![-0.5];
     breaks.extend(roots_between(&[k0, k1, k2 / 2.0, k3 / 6.0], -0.5, 0.5));

@@ -23,6 +23,8 @@ pub(crate) struct Ours {
     pub(crate) as_claimed: Residual,
     /// Length over chord of the longest segment.
     pub(crate) longest: f64,
+    /// Length over chord of each segment that has a chord.
+    pub(crate) lengths: Vec<f64>,
     /// ∫|κ| ds, radians.
     pub(crate) turning: f64,
 }
@@ -52,6 +54,7 @@ impl Ours {
             as_asked: placed.residual(&asked, &asked_joins(contour, spline)),
             as_claimed: placed.residual(&held, &claimed),
             longest: placed.longest_in_chords(),
+            lengths: placed.lengths_in_chords().collect(),
             turning: placed.total_turning(),
             solution,
             pieces,
