@@ -1,5 +1,6 @@
 //! faircurve and libspiro side by side: see the README.
 
+mod against_search;
 mod classes;
 #[cfg(libspiro)]
 mod ffi;
@@ -15,6 +16,7 @@ mod rivals;
 mod search;
 mod tangents;
 mod time;
+mod worse;
 mod yardstick;
 
 use std::io::{self, Write};
@@ -100,12 +102,24 @@ enum Command {
         #[arg(long, value_name = "FOLDER")]
         yardstick: Option<PathBuf>,
     },
+    /// faircurve against the best curves that the search has found
+    AgainstSearch {
+        /// Only contours whose place contains this
+        #[arg(default_value = "")]
+        filter: String,
+        /// Where the best roots are kept [default: the repository's]
+        #[arg(long, value_name = "FOLDER")]
+        yardstick: Option<PathBuf>,
+    },
 }
 
 impl Command {
     /// Whether it says nothing about libspiro.
     fn is_alone(&self) -> bool {
-        matches!(self, Command::Hostile { .. } | Command::Search { .. })
+        matches!(
+            self,
+            Command::Hostile { .. } | Command::Search { .. } | Command::AgainstSearch { .. }
+        )
     }
 }
 
@@ -150,6 +164,10 @@ fn run(arguments: &Arguments) -> Result<Report, Failure> {
             };
             let folder = yardstick.clone().unwrap_or_else(yardstick::default_folder);
             search::run(&contours, *seconds, *seed, &folder)
+        }
+        Command::AgainstSearch { filter, yardstick } => {
+            let folder = yardstick.clone().unwrap_or_else(yardstick::default_folder);
+            against_search::run(&folder, filter, &fonts_input::read(&[]).unwrap_or_default())
         }
         Command::Hostile { cases, seed } => hostile::run(*cases, *seed),
     }

@@ -22,6 +22,8 @@ pub(crate) struct Entry {
     pub(crate) turning: Option<f64>,
     /// Segments longer than 4 chords.
     pub(crate) loops: usize,
+    /// The fewest such segments of any root found, which may be another one.
+    pub(crate) fewest_loops: usize,
     /// Recomputed.
     pub(crate) residual: f64,
     /// By which kind of start.
@@ -33,13 +35,14 @@ pub(crate) struct Entry {
 
 impl Entry {
     /// A root.
-    pub(crate) fn new(place: &str, root: &Ours, how: &str) -> Entry {
+    pub(crate) fn new(place: &str, root: &Ours, fewest_loops: usize, how: &str) -> Entry {
         let lengths = root.lengths.iter();
         let k: Vec<[f64; 4]> = root.pieces.iter().map(|piece| piece.k).collect();
         Entry {
             place: place.to_owned(),
             turning: Some(root.turning),
             loops: lengths.filter(|length| **length > LOOP).count(),
+            fewest_loops,
             residual: root.as_asked.value,
             how: how.to_owned(),
             k: (k.len() <= SHORT).then_some(k),
@@ -52,6 +55,7 @@ impl Entry {
             place: place.to_owned(),
             turning: None,
             loops: 0,
+            fewest_loops: 0,
             residual: 0.0,
             how: "not found".to_owned(),
             k: None,
@@ -67,7 +71,7 @@ impl Entry {
     }
 
     /// The class or font that it belongs to.
-    fn group(&self) -> &str {
+    pub(crate) fn group(&self) -> &str {
         match self.place.split_once(" case ") {
             Some((class, _)) => class,
             None => self.place.split(' ').next().unwrap_or_default(),
@@ -130,10 +134,24 @@ impl Yardstick {
         self.0.get(place)
     }
 
-    /// Takes an entry if it is the first of its place or better than the one there.
-    pub(crate) fn improve(&mut self, entry: Entry) {
-        if self.get(&entry.place).is_none_or(|old| entry.is_better_than(old)) {
+    /// All that is known, by place.
+    pub(crate) fn entries(&self) -> impl Iterator<Item = &Entry> {
+        self.0.values()
+    }
+
+    /// Takes an entry if it is the first of its place or better than the one there, and of both the
+    /// fewer loops.
+    pub(crate) fn improve(&mut self, mut entry: Entry) {
+        let Some(old) = self.0.get_mut(&entry.place) else {
             self.0.insert(entry.place.clone(), entry);
+            return;
+        };
+        if entry.turning.is_some() && old.turning.is_some() {
+            let fewest = entry.fewest_loops.min(old.fewest_loops);
+            (entry.fewest_loops, old.fewest_loops) = (fewest, fewest);
+        }
+        if entry.is_better_than(old) {
+            *old = entry;
         }
     }
 }

@@ -20,6 +20,8 @@ pub(super) struct Root {
     pub(super) state: State,
     /// ∫|κ| ds, radians.
     pub(super) turning: f64,
+    /// The fewest segments longer than 4 chords of any root found, which may be another one.
+    pub(super) fewest_loops: usize,
     pub(super) how: &'static str,
 }
 
@@ -53,10 +55,10 @@ pub(super) fn hunt(chain: &Chain, limit: Duration, seed: u64) -> Option<Root> {
 }
 
 impl Hunt<'_> {
-    /// Out of time, or a good root and nothing better for a tenth of the time.
+    /// Out of time, or a root without loops and nothing better for a tenth of the time.
     fn is_over(&self) -> bool {
         let elapsed = self.start.elapsed();
-        let has_good = self.best.as_ref().is_some_and(|root| loops(&root.state) == 0);
+        let has_good = self.best.as_ref().is_some_and(|root| root.fewest_loops == 0);
         elapsed > self.limit || has_good && elapsed > self.last_gain + self.limit / 10
     }
 
@@ -65,9 +67,15 @@ impl Hunt<'_> {
         if !(self.chain.newton(&mut state, 1.0, 12) <= ROOT) {
             return false;
         }
-        let turning = state.turning();
+        let (turning, own_loops) = (state.turning(), loops(&state));
+        let known = self.best.as_ref().map_or(usize::MAX, |best| best.fewest_loops);
+        let fewest_loops = known.min(own_loops);
+        if let (Some(best), true) = (&mut self.best, own_loops < known) {
+            best.fewest_loops = own_loops;
+            self.last_gain = self.start.elapsed();
+        }
         if self.best.as_ref().is_none_or(|best| turning < best.turning - 1e-9) {
-            self.best = Some(Root { state, turning, how });
+            self.best = Some(Root { state, turning, fewest_loops, how });
             self.last_gain = self.start.elapsed();
         }
         true
@@ -318,6 +326,6 @@ impl Hunt<'_> {
 }
 
 /// Segments longer than 4 chords.
-pub(super) fn loops(state: &State) -> usize {
+fn loops(state: &State) -> usize {
     state.k.iter().filter(|k| straightness(**k) * LOOP < 1.0).count()
 }

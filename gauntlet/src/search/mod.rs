@@ -46,8 +46,10 @@ pub(crate) fn run(
             let (yardstick, progress, rows) = &mut *state;
             progress.step(name);
             let before = yardstick.get(name).cloned();
-            let entry =
-                found.map_or(Entry::unsolved(name), |(ours, how)| Entry::new(name, &ours, how));
+            let entry = match found {
+                Some((ours, fewest_loops, how)) => Entry::new(name, &ours, fewest_loops, how),
+                None => Entry::unsolved(name),
+            };
             rows.push((entry.clone(), before));
             yardstick.improve(entry);
             yardstick.write(folder)?;
@@ -65,16 +67,16 @@ pub(crate) fn run(
     Ok(report(&rows))
 }
 
-/// The best curve found as asked, judged, and how its hardest run was found.
+/// The best curve found as asked, judged; the fewest loops of any; and how its hardest run was found.
 fn search(
     contour: &Contour,
     spline: &dyn Spline,
     limit: Duration,
     seed: u64,
-) -> Option<(Ours, &'static str)> {
+) -> Option<(Ours, usize, &'static str)> {
     let plan = Plan::new(contour, spline).ok()?;
     let all: usize = plan.runs().iter().map(|run| run.segment_count()).sum();
-    let mut how = "nothing to search";
+    let (mut how, mut fewest_loops) = ("nothing to search", 0);
     let mut solutions = Vec::new();
     for run in plan.runs() {
         let share = limit.mul_f64(run.segment_count() as f64 / all as f64);
@@ -82,6 +84,7 @@ fn search(
         if how != "local search" {
             how = root.how;
         }
+        fewest_loops += root.fewest_loops;
         let point = |i: usize| run.knots[i % run.knots.len()].point;
         let segments = root
             .state
@@ -93,7 +96,7 @@ fn search(
         solutions.push(RunSolution { segments, ..RunSolution::default() });
     }
     let ours = Ours::judge(contour, spline, plan.assemble(solutions));
-    (ours.as_asked.value <= 1e-8).then_some((ours, how))
+    (ours.as_asked.value <= 1e-8).then_some((ours, fewest_loops, how))
 }
 
 fn report(rows: &[(Entry, Option<Entry>)]) -> Report {
@@ -109,7 +112,7 @@ fn report(rows: &[(Entry, Option<Entry>)]) -> Report {
             [
                 new.place.clone(),
                 turning(new),
-                new.loops.to_string(),
+                format!("{} {}", new.loops, new.fewest_loops),
                 new.how.clone(),
                 old.as_ref().map_or("–".to_owned(), turning),
                 if better(&row) { "better" } else { "" }.to_owned(),
@@ -118,7 +121,7 @@ fn report(rows: &[(Entry, Option<Entry>)]) -> Report {
         .collect();
     let found = rows.iter().filter(|(new, _)| new.turning.is_some()).count();
     let gained = rows.iter().filter(better).count();
-    let header = ["contour", "∫|κ| ds", "loops", "found by", "before", ""];
+    let header = ["contour", "∫|κ| ds", "loops, fewest", "found by", "before", ""];
     let text = format!(
         "{}\nroots found: {found} of {} ({} %); better than before: {gained}\n",
         table(header, lines),
@@ -144,7 +147,7 @@ mod tests {
             let contour = class.contour(1);
             let ours = Ours::solve(&contour, &*spline).unwrap();
             let found = search(&contour, &*spline, Duration::from_millis(50), 0);
-            let (found, _) = found.unwrap_or_else(|| panic!("{name}"));
+            let (found, ..) = found.unwrap_or_else(|| panic!("{name}"));
             assert!(found.turning <= ours.turning + 1e-6, "{name}");
         }
     }
