@@ -1,6 +1,7 @@
 //! faircurve and libspiro side by side: see the README.
 
 mod against_search;
+mod all;
 mod classes;
 #[cfg(libspiro)]
 mod ffi;
@@ -43,6 +44,11 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Everything, at modest size
+    All {
+        /// SFD files [default: those next to the repository, if they are there]
+        files: Vec<PathBuf>,
+    },
     /// How many contours of real fonts are solved
     Fonts {
         /// SFD files [default: those next to the repository]
@@ -149,6 +155,10 @@ fn run(arguments: &Arguments) -> Result<Report, Failure> {
         });
     }
     match &arguments.command {
+        Command::All { files } if files.is_empty() => {
+            all::run(&fonts_input::read(&[]).unwrap_or_default())
+        }
+        Command::All { files } => all::run(&fonts_input::read(files)?),
         Command::Fonts { files } => fonts::run(&fonts_input::read(files)?),
         Command::Tangents { files } => tangents::run(&fonts_input::read(files)?),
         Command::Time { files, rounds, fonts_only } => {

@@ -612,6 +612,27 @@ mod tests {
     }
 
     #[test]
+    fn one_place_is_what_the_rule_says() {
+        let places = |points: &[(f64, f64)], closed: bool| {
+            let contour = Contour { closed, ..Contour::open(points.iter().copied()) };
+            nodes(&contour).iter().map(|node| (node.first, node.last)).collect::<Vec<_>>()
+        };
+        // 64 ε of the larger coordinate, from neighbour to neighbour.
+        let near = |n: f64| (1.0 + n * f64::EPSILON, 0.0);
+        assert_eq!(
+            places(&[near(0.0), near(60.0), near(120.0), (2.0, 0.0)], false),
+            [(0, 2), (3, 3)]
+        );
+        assert_eq!(places(&[near(0.0), near(70.0), (2.0, 0.0)], false), [(0, 0), (1, 1), (2, 2)]);
+        // 10⁻¹⁸ of the size, however small the coordinates.
+        let tiny = [(0.0, 0.0), (1e-19, 0.0), (1e-17, 0.0), (1.0, 0.0)];
+        assert_eq!(places(&tiny, false), [(0, 1), (2, 2), (3, 3)]);
+        // Around the end of a closed contour.
+        assert_eq!(places(&[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.0, 0.0)], true)[0], (3, 0));
+        assert_eq!(places(&[(5e-324, 0.0); 3], true), [(0, 2)]);
+    }
+
+    #[test]
     fn what_is_given_is_checked() {
         let arch = |tangent: (f64, f64)| {
             Contour::open([Knot::new((0.0, 0.0)).tangent_out(tangent), Knot::new((2.0, 0.0))])

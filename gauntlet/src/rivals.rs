@@ -390,6 +390,31 @@ mod tests {
     }
 
     #[test]
+    fn what_is_given_takes_the_place_that_the_decision_says() {
+        let points = [(0.0, 0.0), (100.0, 10.0), (180.0, 90.0), (150.0, 200.0), (20.0, 180.0)];
+        let (tangent, curvature) = (Vec2::new(1.0, 0.9), 0.005);
+        for spline in ["spiro", "euler"].map(|name| faircurve::catalog::spline(name).unwrap()) {
+            for join in Join::ALL {
+                for (given_tangent, given_curvature, closed) in
+                    (0..32).map(|i| ([i & 1 > 0, i & 2 > 0], [i & 4 > 0, i & 8 > 0], i & 16 > 0))
+                {
+                    let mut knots = points.map(|point| Knot::new(point).join(Join::G4)).to_vec();
+                    knots[2] = Knot {
+                        tangent_in: given_tangent[0].then_some(tangent),
+                        tangent_out: given_tangent[1].then_some(tangent),
+                        curvature_in: given_curvature[0].then_some(curvature),
+                        curvature_out: given_curvature[1].then_some(curvature),
+                        ..Knot::new(points[2]).join(join)
+                    };
+                    let contour = Contour { knots, closed };
+                    let ours = Ours::solve(&contour, &*spline).unwrap();
+                    assert_eq!(ours.falsehood(&contour), None, "{contour:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn what_libspiro_lacks_is_not_passed_on() {
         let takes = |contour: Contour| LibspiroInput::new(&contour).is_some();
         let knots = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)].map(Knot::new);

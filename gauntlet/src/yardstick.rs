@@ -109,24 +109,20 @@ impl Yardstick {
         Ok(yardstick)
     }
 
-    /// Writes a file for each class and font.
+    /// Writes the file of the class or font that a place belongs to, and leaves the others alone.
     ///
     /// # Errors
-    /// If one can't be written.
-    pub(crate) fn write(&self, folder: &Path) -> Result<(), Failure> {
-        let mut files: BTreeMap<&str, String> = BTreeMap::new();
-        for entry in self.0.values() {
-            let line = serde_json::to_string(entry).map_err(|error| in_file(folder, &error))?;
-            let text = files.entry(entry.group()).or_default();
-            text.push_str(&line);
+    /// If it can't be written.
+    pub(crate) fn write_group_of(&self, place: &str, folder: &Path) -> Result<(), Failure> {
+        let Some(group) = self.get(place).map(Entry::group) else { return Ok(()) };
+        let mut text = String::new();
+        for entry in self.entries().filter(|entry| entry.group() == group) {
+            text += &serde_json::to_string(entry).map_err(|error| in_file(folder, &error))?;
             text.push('\n');
         }
         std::fs::create_dir_all(folder).map_err(|error| in_file(folder, &error))?;
-        for (group, text) in files {
-            let file = folder.join(format!("{}.jsonl", group.replace([' ', '/'], "-")));
-            std::fs::write(&file, text).map_err(|error| in_file(&file, &error))?;
-        }
-        Ok(())
+        let file = folder.join(format!("{}.jsonl", group.replace([' ', '/'], "-")));
+        std::fs::write(&file, text).map_err(|error| in_file(&file, &error))
     }
 
     /// What is known of a place.

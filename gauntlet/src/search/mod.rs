@@ -52,7 +52,7 @@ pub(crate) fn run(
             };
             rows.push((entry.clone(), before));
             yardstick.improve(entry);
-            yardstick.write(folder)?;
+            yardstick.write_group_of(name, folder)?;
         }
         Ok(())
     };
