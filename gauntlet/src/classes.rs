@@ -9,7 +9,7 @@ use serde_json::json;
 
 use crate::generate::{Class, classes};
 use crate::progress::Progress;
-use crate::report::{Report, describe, percent, table, tiny};
+use crate::report::{Report, percent, table, tiny};
 use crate::residual::LOOP;
 use crate::rivals::{LibspiroInput, Ours, TRULY_SOLVED, Theirs};
 use crate::worse::{Differences, Worse};
@@ -138,14 +138,14 @@ pub(crate) fn run(filter: &str, cases: usize) -> Result<Report, Failure> {
                 t.libspiro_seconds_of_both +=
                     least_of_three(|| input.solve_only(), timed(|| input.solve_only()).0);
             }
-            let worse = Worse::judge(&ours, &theirs);
+            let (worse, is_new) = differences.compare(&name, &contour, &ours, &theirs);
             match worse {
                 Some(Worse::Relaxed) => t.worse_relaxed += 1,
                 Some(Worse::Loops) => t.worse_loops += 1,
                 Some(Worse::TurnsMore) => t.worse_turns += 1,
                 None => {}
             }
-            if differences.note(&name, worse, &describe(&contour)) {
+            if is_new {
                 notable.push((format!("worse {name}"), Document::unnamed([contour.clone()])));
             }
             if let Some(falsehood) = ours.falsehood(&contour) {

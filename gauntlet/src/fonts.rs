@@ -9,7 +9,7 @@ use serde_json::json;
 use crate::fonts_input::FontContour;
 use crate::report::{Report, describe, list, percent, table, tiny};
 use crate::rivals::{Ours, Theirs};
-use crate::worse::{Differences, Worse};
+use crate::worse::Differences;
 use crate::{Failure, spiro};
 
 /// The counts of one font.
@@ -80,9 +80,9 @@ pub(crate) fn run(contours: &[FontContour]) -> Result<Report, Failure> {
                 continue;
             }
         };
-        let worse = Worse::judge(&ours, &theirs);
+        let (worse, is_new) = differences.compare(&name, contour, &ours, &theirs);
         tally.worse_than_libspiro += usize::from(worse.is_some());
-        if differences.note(&name, worse, &describe(contour)) {
+        if is_new {
             notable.push((format!("worse {name}"), Document::unnamed([contour.clone()])));
         }
         let report = &ours.solution.report;

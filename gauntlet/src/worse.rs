@@ -2,9 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use faircurve::Contour;
 use serde::{Deserialize, Serialize};
 
-use crate::report::list;
+use crate::report::{describe, list};
 use crate::residual::LOOP;
 use crate::rivals::{Ours, Theirs};
 
@@ -25,7 +26,7 @@ pub(crate) enum Worse {
 
 impl Worse {
     /// The comparison of one contour; `None` where ours is no worse.
-    pub(crate) fn judge(ours: &Ours, theirs: &Theirs) -> Option<Worse> {
+    fn judge(ours: &Ours, theirs: &Theirs) -> Option<Worse> {
         let curve = theirs.curve.as_ref().filter(|_| theirs.is_truly_solved())?;
         match () {
             () if !ours.is_solved() => Some(Worse::Relaxed),
@@ -82,9 +83,32 @@ impl Differences {
         }
     }
 
+    /// Compares both curves of a contour. Returns how ours is worse, if it is, and whether
+    /// that isn't accepted.
+    pub(crate) fn compare(
+        &mut self,
+        place: &str,
+        contour: &Contour,
+        ours: &Ours,
+        theirs: &Theirs,
+    ) -> (Option<Worse>, bool) {
+        let worse = Worse::judge(ours, theirs);
+        let numbers = |longest: f64, turning: f64| {
+            format!("∫|κ| ds {turning:.2}, longest segment {longest:.1} chords")
+        };
+        let description = || {
+            let curve = theirs.curve.as_ref();
+            let theirs = curve.map_or(String::new(), |c| numbers(c.longest, c.turning));
+            let ours = numbers(ours.longest, ours.turning);
+            format!("ours {ours}; libspiro's {theirs}; {}", describe(contour))
+        };
+        let description = if worse.is_some() { description() } else { String::new() };
+        (worse, self.note(place, worse, &description))
+    }
+
     /// Notes that a contour was compared, and with what result. Whether the difference, if there is
     /// one, isn't accepted.
-    pub(crate) fn note(&mut self, place: &str, worse: Option<Worse>, description: &str) -> bool {
+    fn note(&mut self, place: &str, worse: Option<Worse>, description: &str) -> bool {
         self.compared.insert(place.to_owned());
         let Some(worse) = worse else { return false };
         self.found.insert((place.to_owned(), worse));

@@ -114,10 +114,11 @@ impl Hunt<'_> {
     /// With long segments laid between their neighbours as these are alone.
     fn bridged(&mut self) {
         const RATIOS: [f64; 5] = [100.0, 30.0, 10.0, 3.0, 1.5];
-        const TRIES: usize = 60;
+        const TRIES: usize = 200;
         for ratio in RATIOS {
             let Some((base, bridges)) = bridges(self.chain, ratio) else { continue };
-            for attempt in 0..TRIES {
+            let single = if let [only] = &bridges[..] { only.ways.len() } else { TRIES };
+            for attempt in 0..TRIES.min(single) {
                 let mut state = base.clone();
                 for bridge in &bridges {
                     // One after the other for a single bridge; for several, mostly the first ways.
