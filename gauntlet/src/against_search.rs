@@ -107,9 +107,9 @@ pub(crate) fn run(folder: &Path, filter: &str, fonts: &[FontContour]) -> Result<
                 t.only_ours.to_string(),
                 t.needless_loops.to_string(),
                 t.loops_of_search.to_string(),
-                format!("{:.3}", t.least_ratio),
-                format!("{:.3}", t.median_ratio),
-                format!("{:.3}", t.worst_ratio),
+                ratio(t.least_ratio),
+                ratio(t.median_ratio),
+                ratio(t.worst_ratio),
             ]
         })
         .collect();
@@ -145,6 +145,10 @@ pub(crate) fn run(folder: &Path, filter: &str, fonts: &[FontContour]) -> Result<
         "not_at_hand": not_at_hand,
     });
     Ok(Report { text, json, notable, alarms: Vec::new() })
+}
+
+fn ratio(value: f64) -> String {
+    if value.is_nan() { "–".to_owned() } else { format!("{value:.3}") }
 }
 
 fn in_words(entry: &Entry, turning: f64) -> String {

@@ -20,7 +20,8 @@ pub(crate) enum Worse {
     Relaxed,
     /// Ours has a segment longer than 4 chords, libspiro's has none.
     Loops,
-    /// ∫|κ| ds of ours is more than 1.5 times that of libspiro's.
+    /// ∫|κ| ds of ours is more than 1.5 times that of libspiro's, which doesn't save its turning by a
+    /// segment longer than 4 chords where ours has none.
     TurnsMore,
 }
 
@@ -31,6 +32,7 @@ impl Worse {
         match () {
             () if !ours.is_solved() => Some(Worse::Relaxed),
             () if ours.longest > LOOP && curve.longest <= LOOP => Some(Worse::Loops),
+            () if ours.longest <= LOOP && curve.longest > LOOP => None,
             () if ours.turning > MUCH * curve.turning + 1e-6 => Some(Worse::TurnsMore),
             () => None,
         }

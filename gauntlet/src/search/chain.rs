@@ -210,6 +210,18 @@ impl Chain {
         Ends::of(k).values.map(|[direction, curvature, ..]| [direction, curvature])
     }
 
+    /// Sets the windings to those nearest to what the segments do.
+    pub(super) fn wind(&self, state: &mut State) {
+        for knot in 0..self.knots() {
+            if let (Some(before), Some(after)) = self.around(knot) {
+                let arrive = Chain::end_jets(state.k[before])[1][0];
+                let leave = Chain::end_jets(state.k[after])[0][0];
+                let off = arrive - leave - self.turns[knot];
+                state.windings[knot] = (off / TAU).round() as i32;
+            }
+        }
+    }
+
     /// The length that makes a knot's equations dimensionless.
     fn scale(&self, knot: usize) -> f64 {
         match self.around(knot) {

@@ -1,9 +1,8 @@
 //! The search for the best root of a run's equations, for as long as it may take.
 
-use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
 
-use super::bridge::bridges;
+use super::bridge::{bridges, divided};
 use super::chain::{Chain, Ease, State, straightness};
 use crate::generate::Random;
 use crate::residual::{LOOP, turning_of};
@@ -47,6 +46,7 @@ pub(super) fn hunt(chain: &Chain, limit: Duration, seed: u64) -> Option<Root> {
     };
     hunt.easy_starts();
     hunt.bridged();
+    hunt.divided();
     hunt.continued();
     while !hunt.is_over() {
         hunt.climb();
@@ -131,7 +131,7 @@ impl Hunt<'_> {
                         state.k[bridge.segment] = *k;
                     }
                 }
-                self.wind(&mut state);
+                self.chain.wind(&mut state);
                 for clamp in [0.3, 1.0] {
                     let mut polished = state.clone();
                     self.chain.newton(&mut polished, clamp, 60);
@@ -140,6 +140,20 @@ impl Hunt<'_> {
                 if self.is_over() {
                     return;
                 }
+            }
+        }
+    }
+
+    /// Divided at long segments, these between their parts.
+    fn divided(&mut self) {
+        const TRIES: usize = 40;
+        let until = self.start.elapsed() + self.limit / 3;
+        for _ in 0..TRIES {
+            if let Some(state) = divided(self.chain, &mut self.random) {
+                self.offer(state, "divided at the longest");
+            }
+            if self.is_over() || self.start.elapsed() > until {
+                return;
             }
         }
     }
@@ -161,18 +175,6 @@ impl Hunt<'_> {
             });
             for root in found {
                 self.offer(root, "continuation");
-            }
-        }
-    }
-
-    /// Sets the windings to those nearest to what the segments do.
-    fn wind(&self, state: &mut State) {
-        for knot in 0..self.chain.knots() {
-            if let (Some(before), Some(after)) = self.chain.around(knot) {
-                let (arrive, leave) =
-                    (Chain::end_jets(state.k[before])[1], Chain::end_jets(state.k[after])[0]);
-                let turn = arrive[0] - leave[0];
-                state.windings[knot] = ((turn - self.chain.turns[knot]) / TAU).round() as i32;
             }
         }
     }
@@ -286,7 +288,7 @@ impl Hunt<'_> {
             }
         }
         match self.random.below(3) {
-            0 => self.wind(&mut changed),
+            0 => self.chain.wind(&mut changed),
             1 => {
                 for i in 0..=count {
                     let knot = (from + i) % n;
