@@ -52,9 +52,7 @@ pub fn violation(contour: &Contour, solution: &Solution) -> (f64, String) {
     for (&(index, before), &(next, after)) in pairs.take(inner) {
         let first = (index + 1) % n;
         let at = &solution.knots[first];
-        // Known: what the report says of the join of a relaxed knot isn't always so.
-        let is_relaxed = report.relaxed.iter().any(|relaxed| relaxed.place == Place::Knot(first));
-        if at.join == Join::Corner || is_relaxed {
+        if at.join == Join::Corner {
             continue;
         }
         let (a, b) = (before.chord_length(), after.chord_length());
@@ -98,9 +96,7 @@ pub fn violation(contour: &Contour, solution: &Solution) -> (f64, String) {
                     let off = wrap_angle(segment.direction(s) - direction(tangent));
                     require(knot, "the tangent given", off);
                 }
-                // Known: the Euler spline drops a curvature of 0 beside a tangent without a word.
-                let is_kept = |k: &f64| k.abs() * segment.chord_length() > BOUND;
-                if let Some(curvature) = curvature.filter(is_kept) {
+                if let Some(curvature) = curvature {
                     let off = segment.curvature(s) - curvature;
                     require(knot, "the curvature given", off * segment.chord_length());
                 }

@@ -1,17 +1,19 @@
 //! Synthetic classes, ordinary and hard, through both programs.
 
-use std::io::{IsTerminal, Write};
+use std::time::Instant;
 
+use faircurve::{Contour, catalog};
+use faircurve_format::Document;
 use serde::Serialize;
 use serde_json::json;
 
 use crate::generate::{Class, classes};
-use crate::report::{Report, describe, list, percent, table, tiny};
-use crate::rivals::{Ours, TRULY_SOLVED, Theirs};
+use crate::progress::Progress;
+use crate::report::{Report, percent, table, tiny};
+use crate::residual::LOOP;
+use crate::rivals::{LibspiroInput, Ours, TRULY_SOLVED, Theirs};
+use crate::worse::{Differences, Worse};
 use crate::{Failure, spiro};
-
-/// A segment longer than this many chords is a loop that no designer wants.
-const LOOP: f64 = 4.0;
 
 /// The counts of one class.
 #[derive(Debug, Default, Serialize)]
@@ -30,18 +32,53 @@ struct Tally {
     largest_relaxed_residual: f64,
     /// Solved with a segment longer than 4 chords.
     loops: usize,
+    /// Length over chord of the longest segment of all that is called solved.
+    longest: f64,
     /// What the report claims doesn't hold.
     falsehoods: usize,
     not_finite: usize,
     most_iterations: usize,
+    /// Wall time of the solve, over all cases.
     our_seconds: f64,
     libspiro_returns_one: usize,
     libspiro_truly_solved: usize,
     /// Truly solved with a segment longer than 4 chords.
     libspiro_loops: usize,
     libspiro_seconds: f64,
-    /// Truly solved by libspiro without a loop, and not by faircurve.
-    libspiro_alone: usize,
+    /// Solve times over the cases that both solve.
+    our_seconds_of_both: f64,
+    libspiro_seconds_of_both: f64,
+    /// libspiro's time over ours there; null if there are none.
+    time_ratio: Option<f64>,
+    /// Truly solved by libspiro, and ours is relaxed.
+    worse_relaxed: usize,
+    /// Loop-free by libspiro, and ours loops.
+    worse_loops: usize,
+    /// Ours turns more than 1.5 times as much.
+    worse_turns: usize,
+}
+
+/// The first contours of the class of that name, each with its own.
+///
+/// # Errors
+/// If there is no such class.
+pub(crate) fn contours(name: &str, cases: usize) -> Result<Vec<(String, Contour)>, Failure> {
+    let class = classes().into_iter().find(|class| class.name == name).ok_or_else(|| Failure {
+        message: format!("there is no class `{name}`"),
+        hint: catalog::suggest(name, classes().iter().map(|class| class.name.as_str())),
+    })?;
+    Ok((0..cases).map(|case| (case_name(&class, case), class.contour(case))).collect())
+}
+
+/// The contour of a name that [`contours`] gives.
+pub(crate) fn contour_of(name: &str) -> Option<Contour> {
+    let (class, case) = name.split_once(" case ")?;
+    let class = classes().into_iter().find(|known| known.name == class)?;
+    Some(class.contour(case.parse().ok()?))
+}
+
+fn case_name(class: &Class, case: usize) -> String {
+    format!("{} case {case}", class.name)
 }
 
 /// Runs both programs over `cases` contours of each class whose name contains `filter`.
@@ -56,7 +93,7 @@ pub(crate) fn run(filter: &str, cases: usize) -> Result<Report, Failure> {
     }
     let spline = spiro()?;
     let (mut tallies, mut notable, mut alarms) = (Vec::new(), Vec::new(), Vec::new());
-    let mut alone = Vec::new();
+    let mut differences = Differences::new();
     let mut progress = Progress::new(chosen.len());
     for class in &chosen {
         progress.step(&class.name);
@@ -65,48 +102,65 @@ pub(crate) fn run(filter: &str, cases: usize) -> Result<Report, Failure> {
         for case in 0..cases {
             let contour = class.contour(case);
             t.cases += 1;
-            let clock = std::time::Instant::now();
-            let theirs = Theirs::solve(&contour);
-            t.libspiro_seconds += clock.elapsed().as_secs_f64();
+            let (their_seconds, theirs) = timed(|| Theirs::solve(&contour));
             let their_loop = theirs.curve.as_ref().is_some_and(|curve| curve.longest > LOOP);
             let theirs_is_true = theirs.is_truly_solved();
+            t.libspiro_seconds += their_seconds;
             t.libspiro_returns_one += usize::from(theirs.returns_one);
             t.libspiro_truly_solved += usize::from(theirs_is_true);
             t.libspiro_loops += usize::from(theirs_is_true && their_loop);
-            let clock = std::time::Instant::now();
-            let ours = Ours::solve(&contour, &*spline);
-            t.our_seconds += clock.elapsed().as_secs_f64();
-            let Ok(ours) = ours else {
+            let (our_seconds, solution) = timed(|| faircurve::solve(&contour, &*spline));
+            t.our_seconds += our_seconds;
+            let Ok(solution) = solution else {
                 t.refused_input += 1;
                 continue;
             };
-            let name = format!("{} case {case}", class.name);
+            let ours = Ours::judge(&contour, &*spline, solution);
+            let name = case_name(class, case);
             t.most_iterations = t.most_iterations.max(ours.solution.report.iterations);
             if ours.is_solved() {
                 t.solved += 1;
                 t.loops += usize::from(ours.longest > LOOP);
+                t.longest = t.longest.max(ours.longest);
                 t.largest_residual = t.largest_residual.max(ours.as_asked.value);
             } else {
                 let places = ours.solution.report.relaxed.len();
                 t.relaxed += 1;
                 t.relaxed_at_most_two += usize::from(places <= 2);
                 t.largest_relaxed_residual = t.largest_relaxed_residual.max(ours.as_claimed.value);
-                if theirs_is_true && !their_loop {
-                    t.libspiro_alone += 1;
-                    alone.push(format!("{name}: {}", describe(&contour)));
-                    notable.push((format!("alone {name}"), contour.clone()));
-                }
+            }
+            if let (true, true, Some(input)) =
+                (ours.is_solved(), theirs_is_true, LibspiroInput::new(&contour))
+            {
+                t.our_seconds_of_both +=
+                    least_of_three(|| drop(faircurve::solve(&contour, &*spline)), our_seconds);
+                // libspiro's first time holds its entry point and the judge's work too.
+                t.libspiro_seconds_of_both +=
+                    least_of_three(|| input.solve_only(), timed(|| input.solve_only()).0);
+            }
+            let (worse, is_new) = differences.compare(&name, &contour, &ours, &theirs);
+            match worse {
+                Some(Worse::Relaxed) => t.worse_relaxed += 1,
+                Some(Worse::Loops) => t.worse_loops += 1,
+                Some(Worse::TurnsMore) => t.worse_turns += 1,
+                None => {}
+            }
+            if is_new {
+                notable.push((format!("worse {name}"), Document::unnamed([contour.clone()])));
             }
             if let Some(falsehood) = ours.falsehood(&contour) {
                 t.falsehoods += 1;
                 alarms.push(format!("{name}: {falsehood}"));
-                notable.push((format!("false {name}"), contour.clone()));
+                notable.push((format!("false {name}"), Document::unnamed([contour.clone()])));
             }
             if !ours.is_finite() {
                 t.not_finite += 1;
                 alarms.push(format!("{name}: a number isn't finite"));
-                notable.push((format!("not-finite {name}"), contour.clone()));
+                notable.push((format!("not-finite {name}"), Document::unnamed([contour.clone()])));
             }
+        }
+        if t.our_seconds_of_both > 0.0 {
+            t.time_ratio = Some(t.libspiro_seconds_of_both / t.our_seconds_of_both);
         }
         tallies.push(t);
     }
@@ -114,15 +168,32 @@ pub(crate) fn run(filter: &str, cases: usize) -> Result<Report, Failure> {
     let text = [
         class_table(&tallies),
         format!(
-            "\nPer cent of all cases. loops: with a segment longer than {LOOP} chords. ms: mean, both \
-             with the judge's time.\nlibspiro counts as true when the residual recomputed from its \
-             k₀…k₃ is at most {TRULY_SOLVED:e}; alone: true, loop-free, and not solved by faircurve.\n",
+            "\nPer cent of all cases. loops: with a segment longer than {LOOP} chords; longest: in chords. \
+             ms: mean; libspiro's with\nits entry point and the judge. time: libspiro's over ours where \
+             both solve. libspiro counts as true when the residual\nrecomputed from its k₀…k₃ is at most \
+             {TRULY_SOLVED:e}. worse (cases): libspiro's is true and ours relaxed; libspiro's has no\nloop \
+             and ours has; ours turns more than 1.5 times as much.\n",
         ),
-        list("truly solved by libspiro alone, without a loop", &alone),
+        differences.text(),
     ]
     .concat();
-    let json = json!({ "classes": tallies, "libspiro_alone": alone, "alarms": alarms });
+    alarms.extend(differences.alarms());
+    let json = json!({ "classes": tallies, "differences": differences.json(), "alarms": alarms });
     Ok(Report { text, json, notable, alarms })
+}
+
+/// Seconds that some work takes, and its result.
+fn timed<T>(work: impl FnOnce() -> T) -> (f64, T) {
+    let clock = Instant::now();
+    let result = work();
+    (clock.elapsed().as_secs_f64(), result)
+}
+
+/// Of a solve that took `first` seconds, the least time of three; of a long one, that.
+fn least_of_three(solve: impl Fn(), first: f64) -> f64 {
+    const LONG: f64 = 5e-3;
+    let again = if first < LONG { 2 } else { 0 };
+    (0..again).map(|_| timed(&solve).0).fold(first, f64::min)
 }
 
 fn class_table(tallies: &[Tally]) -> String {
@@ -137,6 +208,7 @@ fn class_table(tallies: &[Tally]) -> String {
                 of_all(t.relaxed_at_most_two),
                 of_all(t.relaxed - t.relaxed_at_most_two),
                 of_all(t.loops),
+                format!("{:.1}", t.longest),
                 tiny(t.largest_residual),
                 tiny(t.largest_relaxed_residual),
                 t.falsehoods.to_string(),
@@ -147,7 +219,8 @@ fn class_table(tallies: &[Tally]) -> String {
                 of_all(t.libspiro_truly_solved),
                 of_all(t.libspiro_loops),
                 milliseconds(t.libspiro_seconds),
-                t.libspiro_alone.to_string(),
+                t.time_ratio.map_or("–".to_owned(), |ratio| format!("{ratio:.1}")),
+                format!("{} {} {}", t.worse_relaxed, t.worse_loops, t.worse_turns),
             ]
         })
         .collect();
@@ -157,6 +230,7 @@ fn class_table(tallies: &[Tally]) -> String {
         "relaxed ≤2",
         ">2",
         "loops",
+        "longest",
         "residual",
         "if relaxed",
         "false",
@@ -167,38 +241,10 @@ fn class_table(tallies: &[Tally]) -> String {
         "true",
         "loops",
         "ms",
-        "alone",
+        "time",
+        "worse",
     ];
     table(header, rows)
-}
-
-/// A line on the terminal that says how far it is; silent elsewhere.
-struct Progress {
-    done: usize,
-    all: usize,
-    shows: bool,
-}
-
-impl Progress {
-    fn new(all: usize) -> Self {
-        Progress { done: 0, all, shows: std::io::stderr().is_terminal() }
-    }
-
-    fn step(&mut self, what: &str) {
-        self.done += 1;
-        self.write(&format!("\r\x1b[K{}/{} {what}", self.done, self.all));
-    }
-
-    fn done(&self) {
-        self.write("\r\x1b[K");
-    }
-
-    fn write(&self, text: &str) {
-        if self.shows {
-            let mut stderr = std::io::stderr();
-            let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
-        }
-    }
 }
 
 #[cfg(test)]

@@ -2,12 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use faircurve_format::Document;
 use serde::Serialize;
 use serde_json::json;
 
 use crate::fonts_input::FontContour;
 use crate::report::{Report, describe, list, percent, table, tiny};
 use crate::rivals::{Ours, Theirs};
+use crate::worse::Differences;
 use crate::{Failure, spiro};
 
 /// The counts of one font.
@@ -29,8 +31,9 @@ struct Tally {
     /// Contours of one or two points, which libspiro isn't given.
     libspiro_spared: usize,
     libspiro_returns_zero: usize,
-    /// Of those that faircurve doesn't solve.
-    libspiro_alone: usize,
+    /// Truly solved by libspiro; ours relaxed, or with a loop that libspiro avoids, or turning more than
+    /// 1.5 times as much.
+    worse_than_libspiro: usize,
     libspiro_true_residual_above_limit: usize,
     libspiro_largest_true_residual: f64,
 }
@@ -41,6 +44,7 @@ pub(crate) fn run(contours: &[FontContour]) -> Result<Report, Failure> {
     let mut tallies: BTreeMap<&str, Tally> = BTreeMap::new();
     let (mut ours_not, mut theirs_not, mut falsely) = (Vec::new(), Vec::new(), Vec::new());
     let (mut alarms, mut notable, mut unsolved) = (Vec::new(), Vec::new(), Vec::new());
+    let mut differences = Differences::new();
     for FontContour { font, place, contour } in contours {
         let tally = tallies.entry(font).or_default();
         tally.contours += 1;
@@ -76,6 +80,11 @@ pub(crate) fn run(contours: &[FontContour]) -> Result<Report, Failure> {
                 continue;
             }
         };
+        let (worse, is_new) = differences.compare(&name, contour, &ours, &theirs);
+        tally.worse_than_libspiro += usize::from(worse.is_some());
+        if is_new {
+            notable.push((format!("worse {name}"), Document::unnamed([contour.clone()])));
+        }
         let report = &ours.solution.report;
         *tally.iterations.entry(report.iterations).or_default() += 1;
         if ours.is_solved() {
@@ -85,7 +94,6 @@ pub(crate) fn run(contours: &[FontContour]) -> Result<Report, Failure> {
             tally.largest_true_residual = tally.largest_true_residual.max(recomputed);
         } else {
             tally.relaxed += 1;
-            tally.libspiro_alone += usize::from(theirs.returns_one && theirs.is_truly_solved());
             let relaxed: Vec<String> = report
                 .relaxed
                 .iter()
@@ -105,12 +113,12 @@ pub(crate) fn run(contours: &[FontContour]) -> Result<Report, Failure> {
                 "residual_as_claimed": ours.as_claimed,
                 "libspiro": their_verdict,
             }));
-            notable.push((name.clone(), contour.clone()));
+            notable.push((name.clone(), Document::unnamed([contour.clone()])));
         }
         if let Some(falsehood) = ours.falsehood(contour) {
             tally.falsehoods += 1;
             alarms.push(format!("{name}: {falsehood}; {}", describe(contour)));
-            notable.push((name.clone(), contour.clone()));
+            notable.push((name.clone(), Document::unnamed([contour.clone()])));
         }
         if !ours.is_finite() {
             tally.not_finite += 1;
@@ -124,10 +132,13 @@ pub(crate) fn run(contours: &[FontContour]) -> Result<Report, Failure> {
         list("not solved as asked by faircurve", &ours_not),
         list("refused by libspiro", &theirs_not),
         list("called solved by libspiro with a true residual above 1e-5", &falsely),
+        differences.text(),
     ]
     .concat();
+    alarms.extend(differences.alarms());
     let json = json!({
         "fonts": tallies,
+        "differences": differences.json(),
         "unsolved": unsolved,
         "libspiro_refuses": theirs_not,
         "libspiro_false": falsely,
@@ -155,7 +166,7 @@ fn main_table(tallies: &BTreeMap<&str, Tally>) -> String {
                 t.libspiro_returns_zero.to_string(),
                 t.libspiro_true_residual_above_limit.to_string(),
                 tiny(t.libspiro_largest_true_residual),
-                t.libspiro_alone.to_string(),
+                t.worse_than_libspiro.to_string(),
             ]
         })
         .collect();
@@ -174,7 +185,7 @@ fn main_table(tallies: &BTreeMap<&str, Tally>) -> String {
         "refuses",
         "false",
         "residual",
-        "solves alone",
+        "ours worse",
     ];
     table(header, rows)
 }

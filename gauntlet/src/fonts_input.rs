@@ -18,6 +18,13 @@ pub(crate) struct FontContour {
     pub(crate) contour: Contour,
 }
 
+impl FontContour {
+    /// Font and place.
+    pub(crate) fn name(&self) -> String {
+        format!("{} {}", self.font, self.place)
+    }
+}
+
 /// Real fonts that may lie next to the repository.
 fn default_files() -> Vec<PathBuf> {
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data"));

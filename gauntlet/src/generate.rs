@@ -20,7 +20,8 @@ impl Random {
         Random(hash ^ (case as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15))
     }
 
-    fn next(&mut self) -> u64 {
+    /// 64 random bits.
+    pub(crate) fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -30,12 +31,12 @@ impl Random {
 
     /// Uniform in [low, high).
     pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * ((self.next() >> 11) as f64 / (1u64 << 53) as f64)
+        low + (high - low) * ((self.bits() >> 11) as f64 / (1u64 << 53) as f64)
     }
 
     /// Uniform in 0 .. count.
     pub(crate) fn below(&mut self, count: usize) -> usize {
-        (self.next() % count.max(1) as u64) as usize
+        (self.bits() % count.max(1) as u64) as usize
     }
 }
 
@@ -138,9 +139,27 @@ pub(crate) fn classes() -> Vec<Class> {
             }
         }
     }
+    let later: [(&str, Points, usize, [bool; 2]); 5] = [
+        ("tiny-corner", tiny_corner, 8, [false, true]),
+        ("alternating-1e6", alternating, 10, [true, true]),
+        ("spiral", spiral, 160, [false, true]),
+        ("zigzag", zigzag, 12, [false, true]),
+        ("five", five, 5, [true, true]),
+    ];
+    for (what, points, size, [open, closed]) in later {
+        for joins in smooth {
+            if open {
+                add(what, points, size, false, joins, false);
+            }
+            if closed {
+                add(what, points, size, true, joins, false);
+            }
+        }
+    }
     let round: Points = loose_circle;
     add("round", round, 4, true, Joins::EveryArrangement, false);
     add("round", round, 6, false, Joins::EveryArrangement, false);
+    add("bend", bend, 4, false, Joins::EveryArrangement, false);
     add("round", round, 12, true, Joins::Drawn, false);
     add("walk", walk, 16, false, Joins::Drawn, false);
     add("walk", walk, 16, true, Joins::Drawn, false);
@@ -328,17 +347,60 @@ fn crossing(random: &mut Random, n: usize) -> Vec<Point> {
         .collect()
 }
 
+/// A box of 100 to 1000 units of which one corner is rounded by two knots a few thousandths apart.
+fn tiny_corner(random: &mut Random, n: usize) -> Vec<Point> {
+    let (width, height) = (random.between(100.0, 1000.0), random.between(100.0, 1000.0));
+    let (a, b) = (random.between(0.001, 0.01), random.between(0.001, 0.01));
+    let mut points = vec![Point::new(width - a, 0.0), Point::new(width, b)];
+    // The rest of the way round, counterclockwise: a side, a side, and back.
+    let corners = [(width, height), (0.0, height), (0.0, 0.0)];
+    for i in 0..n - 2 {
+        let along = 3.0 * (i as f64 + random.between(0.2, 0.8)) / (n - 2) as f64;
+        let side = (along as usize).min(2);
+        let from = [(width, 0.0), corners[0], corners[1]][side];
+        points.push(Point::from(from).lerp(Point::from(corners[side]), along - side as f64));
+    }
+    points
+}
+
+/// A walk whose steps are a millionth to a thousandth and 1 in turns.
+fn alternating(random: &mut Random, n: usize) -> Vec<Point> {
+    let decades = random.between(-6.0, -3.0);
+    let step = |r: &mut Random, i| {
+        if i % 2 == 0 { ordinary_step(r) } else { 10f64.powf(decades) * ordinary_step(r) }
+    };
+    walk_with(random, n, step, |r, _| gentle_turn(r))
+}
+
+/// A row of three points between two, turning back on itself twice: where thesis figure 2.7 has two
+/// curves.
+fn five(random: &mut Random, n: usize) -> Vec<Point> {
+    let turn = |r: &mut Random, i| match i {
+        1 | 3 => r.between(1.8, 3.0),
+        2 => r.between(-3.0, -1.8),
+        _ => gentle_turn(r),
+    };
+    walk_with(random, n, |r, _| ordinary_step(r), turn)
+}
+
+/// Two knots between ends, at which the way turns by up to 120°, with chords of 10 to 1000 units:
+/// more than a one-way knot can always do with its one free parameter.
+fn bend(random: &mut Random, n: usize) -> Vec<Point> {
+    let step = |r: &mut Random, _| 10f64.powf(r.between(1.0, 3.0));
+    walk_with(random, n, step, |r, _| r.between(-2.1, 2.1))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::residual::largest_turn;
+    use crate::residual::PlacedCurve;
     use std::collections::BTreeSet;
 
     #[test]
     fn splitmix_gives_its_published_numbers() {
         let mut random = Random(1234567);
-        assert_eq!(random.next(), 6457827717110365317);
-        assert_eq!(random.next(), 3203168211198807973);
+        assert_eq!(random.bits(), 6457827717110365317);
+        assert_eq!(random.bits(), 3203168211198807973);
     }
 
     #[test]
@@ -369,7 +431,7 @@ mod tests {
     fn classes_are_what_they_say() {
         for class in classes() {
             for case in 0..20 {
-                let turn = largest_turn(&class.contour(case));
+                let turn = PlacedCurve::new(&class.contour(case), &[]).largest_turn();
                 match class.name.split(' ').next() {
                     Some("walk") if !class.closed => assert!(turn < PI / 3.0 + 1e-9),
                     Some("circle") => assert!(turn < 2.2, "{} {turn}", class.name),

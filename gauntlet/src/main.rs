@@ -1,16 +1,24 @@
 //! faircurve and libspiro side by side: see the README.
 
+mod against_search;
+mod all;
 mod classes;
 #[cfg(libspiro)]
 mod ffi;
 mod fonts;
 mod fonts_input;
 mod generate;
+mod hostile;
+mod hostile_inputs;
+mod progress;
 mod report;
 mod residual;
 mod rivals;
+mod search;
 mod tangents;
 mod time;
+mod worse;
+mod yardstick;
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -36,6 +44,11 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Everything, at modest size
+    All {
+        /// SFD files [default: those next to the repository, if they are there]
+        files: Vec<PathBuf>,
+    },
     /// How many contours of real fonts are solved
     Fonts {
         /// SFD files [default: those next to the repository]
@@ -66,6 +79,54 @@ enum Command {
         #[arg(long, default_value_t = 200)]
         cases: usize,
     },
+    /// Very many inputs that nobody would draw, through faircurve alone
+    Hostile {
+        /// Inputs in all
+        #[arg(long, default_value_t = 1_000_000)]
+        cases: usize,
+        /// Other inputs for every number
+        #[arg(long, default_value_t = 0)]
+        seed: u64,
+    },
+    /// The best curves that exist, by minutes of search
+    Search {
+        /// SFD files or documents
+        files: Vec<PathBuf>,
+        /// The class of that name instead
+        #[arg(long, conflicts_with = "files", required_unless_present = "files")]
+        class: Option<String>,
+        /// Of a class, the first contours
+        #[arg(long, default_value_t = 20)]
+        cases: usize,
+        /// Time for each contour
+        #[arg(long, default_value_t = 60.0)]
+        seconds: f64,
+        /// Other random starts for every number
+        #[arg(long, default_value_t = 0)]
+        seed: u64,
+        /// Where the best roots are kept [default: the repository's]
+        #[arg(long, value_name = "FOLDER")]
+        yardstick: Option<PathBuf>,
+    },
+    /// faircurve against the best curves that the search has found
+    AgainstSearch {
+        /// Only contours whose place contains this
+        #[arg(default_value = "")]
+        filter: String,
+        /// Where the best roots are kept [default: the repository's]
+        #[arg(long, value_name = "FOLDER")]
+        yardstick: Option<PathBuf>,
+    },
+}
+
+impl Command {
+    /// Whether it says nothing about libspiro.
+    fn is_alone(&self) -> bool {
+        matches!(
+            self,
+            Command::Hostile { .. } | Command::Search { .. } | Command::AgainstSearch { .. }
+        )
+    }
 }
 
 /// Why nothing came of it, and what to do.
@@ -87,19 +148,38 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<Report, Failure> {
-    if !rivals::HAS_LIBSPIRO {
+    if !rivals::HAS_LIBSPIRO && !arguments.command.is_alone() {
         return Err(Failure {
             message: "this gauntlet was built without libspiro".to_owned(),
             hint: "install libspiro-dev and pkg-config, then build it again".to_owned(),
         });
     }
     match &arguments.command {
+        Command::All { files } if files.is_empty() => {
+            all::run(&fonts_input::read(&[]).unwrap_or_default())
+        }
+        Command::All { files } => all::run(&fonts_input::read(files)?),
         Command::Fonts { files } => fonts::run(&fonts_input::read(files)?),
         Command::Tangents { files } => tangents::run(&fonts_input::read(files)?),
         Command::Time { files, rounds, fonts_only } => {
             time::run(&fonts_input::read(files)?, *rounds as usize, !fonts_only)
         }
         Command::Classes { filter, cases } => classes::run(filter, *cases),
+        Command::Search { files, class, cases, seconds, seed, yardstick } => {
+            let contours = match class {
+                Some(class) => classes::contours(class, *cases)?,
+                None => {
+                    fonts_input::read(files)?.into_iter().map(|c| (c.name(), c.contour)).collect()
+                }
+            };
+            let folder = yardstick.clone().unwrap_or_else(yardstick::default_folder);
+            search::run(&contours, *seconds, *seed, &folder)
+        }
+        Command::AgainstSearch { filter, yardstick } => {
+            let folder = yardstick.clone().unwrap_or_else(yardstick::default_folder);
+            against_search::run(&folder, filter, &fonts_input::read(&[]).unwrap_or_default())
+        }
+        Command::Hostile { cases, seed } => hostile::run(*cases, *seed),
     }
 }
 

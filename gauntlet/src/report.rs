@@ -9,6 +9,7 @@ use faircurve_format::{Document, json};
 use serde_json::Value;
 
 use crate::Failure;
+use crate::residual::PlacedCurve;
 use crate::rivals::letters;
 
 /// The outcome of a subcommand.
@@ -19,7 +20,7 @@ pub(crate) struct Report {
     /// The same for programs.
     pub(crate) json: Value,
     /// Contours to look at, by a name that will be part of a file name.
-    pub(crate) notable: Vec<(String, Contour)>,
+    pub(crate) notable: Vec<(String, Document)>,
     /// Things that must never happen: a curve that claims to be solved and isn't, a number that
     /// isn't finite.
     pub(crate) alarms: Vec<String>,
@@ -36,13 +37,12 @@ impl Report {
             hint: "name a folder that can be written to".to_owned(),
         };
         std::fs::create_dir_all(folder).map_err(failure)?;
-        for (name, contour) in &self.notable {
+        for (name, document) in &self.notable {
             let safe = |c: char| {
                 if c.is_ascii_alphanumeric() || "-.".contains(c) { c } else { '_' }
             };
             let file = folder.join(format!("{}.json", name.chars().map(safe).collect::<String>()));
-            let document = Document::unnamed([contour.clone()]);
-            let text = json::write(&document).map_err(|error| Failure {
+            let text = json::write(document).map_err(|error| Failure {
                 message: format!("can't write {name}: {error}"),
                 hint: error.hint.unwrap_or_default(),
             })?;
@@ -83,9 +83,11 @@ pub(crate) fn describe(contour: &Contour) -> String {
     let word = letters(contour);
     let shown: String = word.chars().take(MOST_LETTERS).collect();
     let more = if word.len() > MOST_LETTERS { "…" } else { "" };
-    let chords = crate::residual::chord_range(contour)
+    let placed = PlacedCurve::new(contour, &[]);
+    let chords = placed
+        .chord_range()
         .map_or("no chord".to_owned(), |(low, high)| format!("chords {low:.4}–{high:.1}"));
-    let turn = crate::residual::largest_turn(contour).to_degrees();
+    let turn = placed.largest_turn().to_degrees();
     let how = if contour.closed { "closed" } else { "open" };
     format!("{how}, {} knots {shown}{more}, {chords}, turns to {turn:.1}°", contour.knots.len())
 }

@@ -1,10 +1,11 @@
 //! Both programs on one contour, each judged by the same residual.
 
-use faircurve::{Contour, Join, Place, Solution, Spline, Status};
+use std::borrow::Cow;
 
-#[cfg(libspiro)]
-use crate::residual::end_directions;
-use crate::residual::{Piece, Residual, longest_in_chords, residual};
+use faircurve::kurbo::Vec2;
+use faircurve::{Contour, InputError, Join, Knot, Place, Solution, Spline, Status};
+
+use crate::residual::{Piece, PlacedCurve, Residual};
 
 /// Residuals up to this count as solved when libspiro is judged: a hundred times its own aim.
 pub(crate) const TRULY_SOLVED: f64 = 1e-5;
@@ -22,23 +23,42 @@ pub(crate) struct Ours {
     pub(crate) as_claimed: Residual,
     /// Length over chord of the longest segment.
     pub(crate) longest: f64,
+    /// Length over chord of each segment that has a chord.
+    pub(crate) lengths: Vec<f64>,
+    /// ∫|κ| ds, radians.
+    pub(crate) turning: f64,
 }
 
 impl Ours {
-    /// Solves with the given spline. The error is that of the input, in words.
-    pub(crate) fn solve(contour: &Contour, spline: &dyn Spline) -> Result<Ours, String> {
-        let solution = faircurve::solve(contour, spline).map_err(|error| error.to_string())?;
+    /// Solves with the given spline.
+    ///
+    /// # Errors
+    /// That of the input.
+    pub(crate) fn solve(contour: &Contour, spline: &dyn Spline) -> Result<Ours, InputError> {
+        Ok(Ours::judge(contour, spline, faircurve::solve(contour, spline)?))
+    }
+
+    /// Judges what the spline made of a contour.
+    pub(crate) fn judge(contour: &Contour, spline: &dyn Spline, solution: Solution) -> Ours {
         let pieces: Vec<Piece> = solution
             .curve
             .segments()
             .iter()
             .map(|segment| Piece { k: segment.kappa(), length: Some(segment.length()) })
             .collect();
+        let placed = PlacedCurve::new(contour, &pieces);
         let claimed: Vec<Join> = solution.knots.iter().map(|knot| knot.join).collect();
-        let as_asked = residual(contour, &asked_joins(contour, spline.default_join()), &pieces);
-        let as_claimed = residual(contour, &claimed, &pieces);
-        let longest = longest_in_chords(contour, &pieces);
-        Ok(Ours { solution, pieces, as_asked, as_claimed, longest })
+        let asked = without_ignored(contour, &placed, &solution);
+        let held = with_relaxed_as_given(&asked, &placed, &solution);
+        Ours {
+            as_asked: placed.residual(&asked, &asked_joins(contour, spline)),
+            as_claimed: placed.residual(&held, &claimed),
+            longest: placed.longest_in_chords(),
+            lengths: placed.lengths_in_chords().collect(),
+            turning: placed.total_turning(),
+            solution,
+            pieces,
+        }
     }
 
     /// Whether faircurve says that all is as asked.
@@ -94,9 +114,74 @@ impl Ours {
     }
 }
 
-/// Each knot's join, with `default` where none is named.
-pub(crate) fn asked_joins(contour: &Contour, default: Join) -> Vec<Join> {
-    contour.knots.iter().map(|knot| knot.join.unwrap_or(default)).collect()
+/// Each knot's join, with the spline's own where none is named or it lacks the one that is.
+pub(crate) fn asked_joins(contour: &Contour, spline: &dyn Spline) -> Vec<Join> {
+    let join = |knot: &Knot| spline.adapt(knot.join.unwrap_or(spline.default_join()));
+    contour.knots.iter().map(join).collect()
+}
+
+/// The contour without the curvatures that the report lists as ignored: all at a smooth knot, at a
+/// corner and an end those beside a tangent.
+fn without_ignored<'a>(
+    contour: &'a Contour,
+    placed: &PlacedCurve,
+    solution: &Solution,
+) -> Cow<'a, Contour> {
+    let mut rest = Cow::Borrowed(contour);
+    for adaptation in &solution.report.adapted {
+        if (adaptation.asked, adaptation.got) != ("curvature", "ignored") {
+            continue;
+        }
+        let Place::Knot(first) = adaptation.place else { continue };
+        let is_smooth = solution.knots[first].join.is_smooth();
+        change_at(&mut rest, placed, adaptation.place, |knot| {
+            knot.curvature_in =
+                knot.curvature_in.filter(|_| !is_smooth && knot.tangent_in.is_none());
+            knot.curvature_out =
+                knot.curvature_out.filter(|_| !is_smooth && knot.tangent_out.is_none());
+        });
+    }
+    rest
+}
+
+/// The contour as it is after relaxing: where the report says that something gave way, NaN is given,
+/// which the judge takes for whatever the curve has there, so that nothing is required of it and of
+/// the conditions in whose place it stands.
+fn with_relaxed_as_given<'a>(
+    contour: &'a Contour,
+    placed: &PlacedCurve,
+    solution: &Solution,
+) -> Cow<'a, Contour> {
+    let mut rest = Cow::Borrowed(contour);
+    for relaxation in &solution.report.relaxed {
+        let loses_tangent = relaxation.asked == "tangent" || relaxation.got == Join::Corner.name();
+        change_at(&mut rest, placed, relaxation.place, |knot| {
+            let given = [knot.tangent_in, knot.tangent_out].iter().any(Option::is_some)
+                || [knot.curvature_in, knot.curvature_out].iter().any(Option::is_some);
+            if loses_tangent {
+                let any = Some(Vec2::new(f64::NAN, f64::NAN));
+                (knot.tangent_in, knot.tangent_out) = (any, any);
+            }
+            if loses_tangent || given {
+                (knot.curvature_in, knot.curvature_out) = (Some(f64::NAN), Some(f64::NAN));
+            }
+        });
+    }
+    rest
+}
+
+/// Changes the knots of one place.
+fn change_at(
+    contour: &mut Cow<'_, Contour>,
+    placed: &PlacedCurve,
+    place: Place,
+    change: impl Fn(&mut Knot),
+) {
+    if let Place::Knot(first) = place {
+        for knot in placed.knots_in_place_of(first, contour.knots.len()) {
+            change(&mut contour.to_mut().knots[knot]);
+        }
+    }
 }
 
 /// The joins by libspiro's letters, such as `voo[`, for messages.
@@ -144,6 +229,8 @@ pub(crate) struct TheirCurve {
     pub(crate) residual: Residual,
     /// Length over chord of the longest segment.
     pub(crate) longest: f64,
+    /// ∫|κ| ds, radians.
+    pub(crate) turning: f64,
     /// Direction in which each knot is reached, by `get_knot_th`; `None` at an open start and where
     /// the segment has no chord (libspiro says 0 there).
     pub(crate) directions_in: Vec<Option<f64>>,
@@ -187,7 +274,6 @@ impl LibspiroInput {
     /// or two points that it doesn't check.
     pub(crate) fn new(contour: &Contour) -> Option<Self> {
         use crate::ffi::{SpiroCp, is_well_formed};
-        use faircurve::Knot;
         let is_plain = |knot: &Knot| {
             knot.join != Some(Join::G1) && Knot { join: None, ..knot.clone() } == knot.point.into()
         };
@@ -214,7 +300,8 @@ impl LibspiroInput {
         let pieces: Vec<Piece> =
             solved.segments().iter().map(|segment| Piece { k: segment.ks, length: None }).collect();
         let knots = contour.knots.len();
-        let ends = end_directions(contour, &pieces);
+        let placed = PlacedCurve::new(contour, &pieces);
+        let ends = placed.end_directions(contour);
         let direction_in = |knot: usize| {
             // The first knot of a closed contour is reached by the last segment.
             let reached = if knot == 0 { knots } else { knot };
@@ -225,9 +312,12 @@ impl LibspiroInput {
             let (start, _) = ends.get(knot).copied().flatten()?;
             if knot == 0 { solved.knot_direction(0) } else { Some(start) }
         };
+        let joins: Vec<Join> =
+            contour.knots.iter().map(|knot| knot.join.unwrap_or(Join::G4)).collect();
         Some(TheirCurve {
-            residual: residual(contour, &asked_joins(contour, Join::G4), &pieces),
-            longest: longest_in_chords(contour, &pieces),
+            residual: placed.residual(contour, &joins),
+            longest: placed.longest_in_chords(),
+            turning: placed.total_turning(),
             directions_in: (0..knots).map(direction_in).collect(),
             directions_out: (0..knots).map(direction_out).collect(),
         })
@@ -264,7 +354,6 @@ impl Theirs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use faircurve::Knot;
 
     #[test]
     #[expect(clippy::print_stdout, reason = "tests say why they are skipped")]
@@ -295,6 +384,31 @@ mod tests {
                     if let ((Some(a), Some(b)), true) = (sides, join.is_smooth()) {
                         assert!(faircurve::frame::wrap_angle(a - b).abs() < 1e-7, "{a} {b}");
                     }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_given_takes_the_place_that_the_decision_says() {
+        let points = [(0.0, 0.0), (100.0, 10.0), (180.0, 90.0), (150.0, 200.0), (20.0, 180.0)];
+        let (tangent, curvature) = (Vec2::new(1.0, 0.9), 0.005);
+        for spline in ["spiro", "euler"].map(|name| faircurve::catalog::spline(name).unwrap()) {
+            for join in Join::ALL {
+                for (given_tangent, given_curvature, closed) in
+                    (0..32).map(|i| ([i & 1 > 0, i & 2 > 0], [i & 4 > 0, i & 8 > 0], i & 16 > 0))
+                {
+                    let mut knots = points.map(|point| Knot::new(point).join(Join::G4)).to_vec();
+                    knots[2] = Knot {
+                        tangent_in: given_tangent[0].then_some(tangent),
+                        tangent_out: given_tangent[1].then_some(tangent),
+                        curvature_in: given_curvature[0].then_some(curvature),
+                        curvature_out: given_curvature[1].then_some(curvature),
+                        ..Knot::new(points[2]).join(join)
+                    };
+                    let contour = Contour { knots, closed };
+                    let ours = Ours::solve(&contour, &*spline).unwrap();
+                    assert_eq!(ours.falsehood(&contour), None, "{contour:?}");
                 }
             }
         }

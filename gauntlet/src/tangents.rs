@@ -1,6 +1,7 @@
 //! Directions at the knots against those of libspiro.
 
 use faircurve::frame::wrap_angle;
+use faircurve_format::Document;
 use serde::Serialize;
 use serde_json::json;
 
@@ -90,7 +91,10 @@ pub(crate) fn run(contours: &[FontContour]) -> Result<Report, Failure> {
             if let Some(falsehood) = ours.falsehood(contour) {
                 alarms.push(format!("{}: {falsehood}", worst.contour));
             }
-            notable.push((format!("tangents {}", worst.contour), contour.clone()));
+            notable.push((
+                format!("tangents {}", worst.contour),
+                Document::unnamed([contour.clone()]),
+            ));
             differences.push(worst);
         }
     }

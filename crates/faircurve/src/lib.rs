@@ -49,5 +49,6 @@ pub use outline::{Contour, Join, Knot, Outline};
 pub use plan::InputError;
 pub use segment::{CurvePoint, PolynomialSpiral, Segment, Shape};
 pub use spline::{
-    Adaptation, Place, Relaxation, Solution, SolveReport, SolvedKnot, Spline, Status, solve,
+    Adaptation, Effort, Place, Relaxation, Solution, SolveReport, SolvedKnot, Spline, Stage,
+    Status, solve, solve_with,
 };

@@ -409,8 +409,11 @@ impl Plan {
             );
             report.iterations = report.iterations.max(solution.iterations);
             report.residual = report.residual.max(solution.residual);
+            report.stage = report.stage.max(solution.stage);
         }
-        report.relaxed.sort_by_key(|relaxation| relaxation.place);
+        // Both runs at a knot may say the same of it.
+        report.relaxed.sort_by_key(|r| (r.place, r.asked, Join::from_name(r.got)));
+        report.relaxed.dedup_by_key(|r| (r.place, r.asked));
         report.adapted.sort_by_key(|adaptation| adaptation.place);
         let placed = self.place_segments(&shapes);
         let knots = self.solved_knots(&placed, &report);
@@ -464,8 +467,9 @@ impl Plan {
             };
             let leaving = segments.get(node.last);
             let place = Place::Knot(node.first);
-            let relaxed = report.relaxed.binary_search_by_key(&place, |r| r.place).ok();
-            let got = relaxed.and_then(|i| Join::from_name(report.relaxed[i].got));
+            let from = report.relaxed.partition_point(|r| r.place < place);
+            let here = report.relaxed[from..].iter().take_while(|r| r.place == place);
+            let got = here.filter_map(|r| Join::from_name(r.got)).min();
             let join = got.unwrap_or(node.join);
             let solved = SolvedKnot {
                 point: self.points[node.first],

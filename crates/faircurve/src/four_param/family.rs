@@ -34,6 +34,10 @@ pub trait FourParamFamily {
     /// be drawable.
     fn between_tangents(&self, theta0: f64, theta1: f64) -> [f64; 4];
 
+    /// Segments with these ends (in the order of [`Response::jets`], directions modulo full turns),
+    /// the straightest first: all but the most wound up that a search on a grid finds.
+    fn between_ends(&self, ends: [f64; 4]) -> Vec<[f64; 4]>;
+
     /// The segment from `start` to `end` with these parameters.
     fn shape(&self, start: Point, end: Point, parameters: [f64; 4]) -> Segment;
 

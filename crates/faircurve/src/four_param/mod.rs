@@ -7,6 +7,7 @@
 
 pub mod constraint_table;
 pub mod family;
+mod relax;
 pub mod spline;
 mod strategy;
 mod system;

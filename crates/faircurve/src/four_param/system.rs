@@ -15,6 +15,7 @@ use crate::numeric::block_tridiagonal::BlockTridiagonal;
 use crate::numeric::newton::System;
 use crate::outline::Join;
 use crate::plan::Run;
+use crate::tolerance::LOOP;
 
 /// An equation at a knot, beside continuity of direction and curvature.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +40,9 @@ pub(super) struct SystemKnot {
     /// Harmonic mean of the two chords: the length that makes equations dimensionless.
     h: f64,
 }
+
+/// What Newton's method changes: the parameters of every segment, and the winding at every knot.
+pub(super) type State = (Vec<[f64; 4]>, Vec<f64>);
 
 /// The equations of a run, with the state of its segments.
 pub(super) struct RunSystem<'a, F> {
@@ -214,6 +218,74 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
         }
     }
 
+    /// Lets the run start freely at its first knot.
+    pub(super) fn free_start(&mut self) {
+        if let Some(first) = self.knots.first_mut() {
+            first.equations = table::START.map(Equation::Condition);
+        }
+    }
+
+    /// Directions and curvatures that the neighbours of a segment leave to it, for unit chord, as
+    /// [`Response::jets`]; `None` where it has no neighbour.
+    pub(super) fn ends_beside(&self, segment: usize) -> Option<[f64; 4]> {
+        let n = self.knots.len();
+        let (start, end) = (segment, (segment + 1) % n);
+        let (Some(before), Some(after)) =
+            (neighbours(start, n, self.closed).0, neighbours(end, n, self.closed).1)
+        else {
+            return None;
+        };
+        let chord = self.chords[segment];
+        let (arriving, leaving) = (&self.responses[before].jets, &self.responses[after].jets);
+        Some([
+            self.knots[start].turn - arriving[1],
+            self.knots[end].turn - leaving[0],
+            arriving[3] * chord / self.chords[before],
+            leaving[2] * chord / self.chords[after],
+        ])
+    }
+
+    /// How much longer a segment is than its neighbours: the square of its chord over the product
+    /// of theirs; 0 where it has no neighbour, or isn't joined to both of them in all of κ, κ′, κ″.
+    pub(super) fn prominence(&self, segment: usize) -> f64 {
+        let n = self.knots.len();
+        let joined = [segment, (segment + 1) % n].iter().all(|&knot| {
+            self.knots[knot]
+                .equations
+                .iter()
+                .all(|e| matches!(e, Equation::Condition(Condition::Continuous(_))))
+        });
+        if !joined {
+            return 0.0;
+        }
+        let (before, after) = (
+            neighbours(segment, n, self.closed).0,
+            neighbours((segment + 1) % n, n, self.closed).1,
+        );
+        match (before, after) {
+            (Some(l), Some(r)) => {
+                self.chords[segment] / self.chords[l] * (self.chords[segment] / self.chords[r])
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// Chooses the winding at each knot in which its directions differ least.
+    pub(super) fn unwind(&mut self) {
+        for i in 0..self.knots.len() {
+            let turns = (self.mismatch[i][0] / TAU).round();
+            if turns != 0.0 && turns.is_finite() {
+                self.knots[i].turn -= TAU * turns;
+                self.mismatch[i] = self.mismatch_at(i);
+            }
+        }
+    }
+
+    /// The family.
+    pub(super) fn family(&self) -> &'a F {
+        self.family
+    }
+
     /// A closed run cut at its first knot, which stands at both free ends.
     pub(super) fn opened(&self) -> Self {
         let mut open = self.window(0, 0);
@@ -223,12 +295,12 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
     }
 
     /// What Newton's method changes, to come back to.
-    pub(super) fn state(&self) -> (Vec<[f64; 4]>, Vec<f64>) {
+    pub(super) fn state(&self) -> State {
         (self.parameters.clone(), self.knots.iter().map(|knot| knot.turn).collect())
     }
 
     /// Comes back to a state, or takes over that of the same run [`opened`](Self::opened).
-    pub(super) fn set_state(&mut self, state: &(Vec<[f64; 4]>, Vec<f64>)) {
+    pub(super) fn set_state(&mut self, state: &State) {
         self.parameters.clone_from(&state.0);
         self.knots.iter_mut().zip(&state.1).for_each(|(knot, turn)| knot.turn = *turn);
         self.evaluate();
@@ -242,6 +314,16 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
     /// Chord over arc length of each segment, as of the last linearisation.
     pub(super) fn straightness(&self, segment: usize) -> f64 {
         self.responses[segment].straightness
+    }
+
+    /// The segments that loop, as of the last evaluation.
+    pub(super) fn loops(&self) -> impl Iterator<Item = usize> {
+        (0..self.parameters.len()).filter(|&i| !(self.straightness(i) * LOOP > 1.0))
+    }
+
+    /// That of the segment with the most winding.
+    pub(super) fn least_straightness(&self) -> f64 {
+        self.responses.iter().map(|response| response.straightness).fold(1.0, f64::min)
     }
 
     /// Computes responses and mismatches of the present state.

@@ -96,7 +96,7 @@ impl<'a, F: TwoParamFamily> TangentSystem<'a, F> {
                 let is_end = !run.closed && (i == 0 || i == last);
                 match (is_end, knot.tangent, knot.curvature) {
                     (true, Some(tangent), given) => {
-                        if given.is_some_and(|curvature| curvature != 0.0) {
+                        if given.is_some() {
                             adapted.push(ignored(i));
                         }
                         Equation::Direction(if i == 0 {

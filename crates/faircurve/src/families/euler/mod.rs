@@ -14,7 +14,7 @@ use crate::numeric::spiro_integral::{SpiroMoments, spiro_moments};
 use crate::outline::Join;
 use crate::plan::Run;
 use crate::segment::{PolynomialSpiral, Segment};
-use crate::spline::{RunSolution, Spline};
+use crate::spline::{Effort, RunSolution, Spline};
 use crate::tolerance::{LOOP, SOLVED};
 use crate::two_param::family::{EndCurvatures, NaturalEnd, TwoParamFamily};
 use crate::two_param::spline::TwoParamSpline;
@@ -62,8 +62,10 @@ impl Euler {
         let mut run = run.clone();
         let last = run.knots.len() - 1;
         for (i, knot) in run.knots.iter_mut().enumerate() {
-            knot.join = Join::G2;
             let is_end = !run.closed && (i == 0 || i == last);
+            if !is_end {
+                knot.join = Join::G2;
+            }
             knot.curvature = match (is_end, knot.tangent, self.end) {
                 (true, None, NaturalEnd::ZeroCurvature) => knot.curvature.or(Some(0.0)),
                 (true, None, NaturalEnd::Arc) => knot.curvature,
@@ -98,15 +100,17 @@ impl Spline for Euler {
         }
     }
 
-    fn solve_run(&self, run: &Run) -> RunSolution {
+    fn solve_plainly(&self, run: &Run) -> Option<RunSolution> {
         let solved = TwoParamSpline::new(*self).solve_run(run);
         let loops = solved.segments.iter().any(|s| s.length() > LOOP * s.chord_length());
-        if solved.residual <= SOLVED && !loops {
-            return solved;
-        }
-        // Tangents alone can't leave the principal square of chord angles; the wider search over
-        // windings is that of the polynomial spirals, of which all-G2 runs are Euler spirals.
-        let wider = ConstraintSpline::new(PolynomialSpirals).solve_run(&self.as_g2(run));
+        (solved.residual <= SOLVED && !loops).then_some(solved)
+    }
+
+    /// Tangents alone can't leave the principal square of chord angles; the wider search over
+    /// windings is that of the polynomial spirals, of which all-G2 runs are Euler spirals.
+    fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution {
+        let solved = TwoParamSpline::new(*self).solve_run(run);
+        let wider = ConstraintSpline::new(PolynomialSpirals).solve_run(&self.as_g2(run), effort);
         RunSolution {
             adapted: solved.adapted,
             iterations: solved.iterations + wider.iterations,

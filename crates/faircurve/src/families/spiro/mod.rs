@@ -1,5 +1,7 @@
 //! The Spiro spline: polynomial spirals joined as Table 7.1 says (thesis sections 7.3, 7.4).
 
+mod hermite;
+
 use kurbo::Point;
 use num_complex::Complex64;
 
@@ -12,7 +14,7 @@ use crate::numeric::spiro_integral::spiro_moments;
 use crate::outline::Join;
 use crate::plan::Run;
 use crate::segment::{PolynomialSpiral, Segment};
-use crate::spline::{RunSolution, Spline};
+use crate::spline::{Effort, RunSolution, Spline};
 
 /// The catalogue's row.
 pub const INFO: SplineInfo = SplineInfo {
@@ -51,8 +53,12 @@ impl Spline for Spiro {
         join
     }
 
-    fn solve_run(&self, run: &Run) -> RunSolution {
-        ConstraintSpline::new(PolynomialSpirals).solve_run(run)
+    fn solve_plainly(&self, run: &Run) -> Option<RunSolution> {
+        ConstraintSpline::new(PolynomialSpirals).solve_plainly(run)
+    }
+
+    fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution {
+        ConstraintSpline::new(PolynomialSpirals).solve_run(run, effort)
     }
 }
 
@@ -137,6 +143,10 @@ impl FourParamFamily for PolynomialSpirals {
 
     fn between_tangents(&self, theta0: f64, theta1: f64) -> [f64; 4] {
         fit_euler(ChordAngles::new(theta0, theta1)).map_or([0.0; 4], |spiral| spiral.k)
+    }
+
+    fn between_ends(&self, ends: [f64; 4]) -> Vec<[f64; 4]> {
+        hermite::between_ends(ends)
     }
 
     fn shape(&self, start: Point, end: Point, k: [f64; 4]) -> Segment {

@@ -1,0 +1,280 @@
+//! What happens to a run that can't be solved as asked: as little as possible is weakened, and every
+//! place is named with its reason.
+
+use std::ops::RangeInclusive;
+
+use super::family::FourParamFamily;
+use super::spline::{ConstraintSpline, Solved, is_interior};
+use super::strategy::UNSETTLED;
+use crate::frame::{direction, wrap_angle};
+use crate::outline::Join;
+use crate::plan::Run;
+use crate::spline::{Effort, Place, Relaxation};
+use crate::tolerance::SOLVED;
+
+impl<F: FourParamFamily> ConstraintSpline<F> {
+    /// Weakens what is asked where the run doesn't settle, until it does: joins to G2, and if that
+    /// isn't enough to G1; curvatures given at bad ends to none. First one knot or two
+    /// ([`few`](Self::relax_few)); then more at once, with a search each time
+    /// ([`many`](Self::relax_many)), unless three do.
+    ///
+    /// Returns the solution and the run as weakened.
+    pub(super) fn relax(&self, run: &Run, first: Solved, effort: Effort) -> (Solved, Run) {
+        /// Share of the effort that may go into a few knots, and again into many.
+        const SHARE: usize = 4;
+        let work = effort.evaluations(run.knots.len()) / SHARE;
+        let (mut few, mut many) = (work, work);
+        let (mut last, mut weaker) = (first, run.clone());
+        for join in [Join::G2, Join::G1] {
+            if let Some(found) = self.relax_few(&weaker, &last, join, 1..=2, &mut few) {
+                return found;
+            }
+            let many = self.relax_many(&weaker, &last, join, &mut many);
+            if many.0.is_solved() {
+                let many = self.restore(run, many);
+                if weakened(run, &many.1).len() <= 3 {
+                    return many;
+                }
+                return self.relax_few(&weaker, &last, join, 3..=3, &mut few).unwrap_or(many);
+            }
+            (last, weaker) = many;
+        }
+        self.relax_all(weaker, last)
+    }
+
+    /// Weakens so many knots, whichever come first that make the run good; or the first that solve it
+    /// with loops.
+    fn relax_few(
+        &self,
+        run: &Run,
+        last: &Solved,
+        join: Join,
+        sizes: RangeInclusive<usize>,
+        work: &mut usize,
+    ) -> Option<(Solved, Run)> {
+        /// Knots that are tried: those that are bad before others, the most strained first.
+        const TRIED: usize = 8;
+        let mut candidates = weakenable(run, last, join);
+        candidates.truncate(TRIED);
+        let mut looping: Option<(Solved, Run)> = None;
+        let mut iterations = last.iterations;
+        for set in sizes.flat_map(|size| subsets(&candidates, size)) {
+            if *work == 0 {
+                break;
+            }
+            let mut trial = run.clone();
+            set.iter().for_each(|&i| weaken(&mut trial, i, join));
+            let mut solved = self.solve_split(&trial, &mut 0);
+            *work = work.saturating_sub((solved.iterations + 1) * trial.segment_count());
+            iterations += solved.iterations;
+            solved.iterations = iterations;
+            if solved.is_good() {
+                return Some((solved, trial));
+            }
+            if looping.is_none() && solved.is_solved() {
+                looping = Some((solved, trial));
+            }
+        }
+        looping
+    }
+
+    /// Weakens the most strained knots of each bad stretch, twice as many every round.
+    fn relax_many(&self, run: &Run, first: &Solved, join: Join, work: &mut usize) -> (Solved, Run) {
+        const ROUNDS: u32 = 4;
+        let n = run.knots.len();
+        let mut weaker = run.clone();
+        let mut last = first.clone();
+        for round in 1..=ROUNDS {
+            let bad = |i: usize| !(last.residuals[i] <= UNSETTLED);
+            let stretches = (0..n).filter(|&i| bad(i) && !bad((i + n - 1) % n)).count().max(1);
+            let mut candidates = weakenable(&weaker, &last, join);
+            candidates.retain(|&i| bad(i));
+            candidates.truncate(stretches << round);
+            candidates.iter().for_each(|&i| weaken(&mut weaker, i, join));
+            let solved = self.solve_split(&weaker, work);
+            last = Solved { iterations: last.iterations + solved.iterations, ..solved };
+            if last.is_solved() {
+                break;
+            }
+        }
+        (last, weaker)
+    }
+
+    /// The last resort: G1 everywhere. Each segment then stands alone and can be drawn unless it
+    /// would have to close into a circle; such a one becomes a line.
+    fn relax_all(&self, mut weaker: Run, before: Solved) -> (Solved, Run) {
+        let n = weaker.knots.len();
+        for i in 0..n {
+            weaker.knots[i].curvature = None;
+            if is_interior(&weaker, i) {
+                weaker.knots[i].join = Join::G1;
+            }
+        }
+        let mut last = self.solve_split(&weaker, &mut 0);
+        last.iterations += before.iterations;
+        for i in 0..weaker.segment_count() {
+            let ends = [i, (i + 1) % n];
+            if ends.iter().any(|&end| !(last.residuals[end] <= SOLVED)) {
+                last.parameters[i] = [0.0; 4];
+                for end in ends {
+                    weaker.knots[end].join = Join::Corner;
+                    weaker.knots[end].tangent = None;
+                }
+            }
+        }
+        // Nothing is asked any more where a line was drawn.
+        last.residuals.iter_mut().filter(|r| !(**r <= SOLVED)).for_each(|r| *r = 0.0);
+        (last, weaker)
+    }
+
+    /// Asks again for what was weakened, knot by knot, the least strained first, and keeps what
+    /// plain Newton iteration solves without more loops.
+    fn restore(&self, run: &Run, (mut solved, mut weaker): (Solved, Run)) -> (Solved, Run) {
+        /// Segments that the trials may solve for in all.
+        const MOST_WORK: usize = 5000;
+        let mut weakened = weakened(run, &weaker);
+        weakened.sort_by(|&a, &b| strain(run, a).total_cmp(&strain(run, b)));
+        weakened.truncate(MOST_WORK / run.knots.len());
+        for i in weakened {
+            let mut trial = weaker.clone();
+            trial.knots[i] = run.knots[i];
+            let attempt = self.solve_split(&trial, &mut 0);
+            if attempt.is_solved() && attempt.loops <= solved.loops {
+                let iterations = solved.iterations + attempt.iterations;
+                (solved, weaker) = (Solved { iterations, ..attempt }, trial);
+            }
+        }
+        (solved, weaker)
+    }
+}
+
+/// The knots at which a run has been weakened.
+fn weakened(run: &Run, weaker: &Run) -> Vec<usize> {
+    (0..run.knots.len()).filter(|&i| run.knots[i] != weaker.knots[i]).collect()
+}
+
+/// The knots at which something can be weakened to `join`: bad ones first, then the most strained.
+fn weakenable(run: &Run, solved: &Solved, join: Join) -> Vec<usize> {
+    let is_good = |i: usize| solved.residuals[i] <= UNSETTLED;
+    let mut knots: Vec<usize> = (0..run.knots.len())
+        .filter(|&i| {
+            let knot = &run.knots[i];
+            if is_interior(run, i) {
+                ![join, Join::G1].contains(&knot.join)
+            } else {
+                knot.curvature.is_some()
+            }
+        })
+        .collect();
+    knots.sort_by(|&a, &b| {
+        is_good(a).cmp(&is_good(b)).then(strain(run, b).total_cmp(&strain(run, a)))
+    });
+    knots
+}
+
+/// All subsets of a size from 1 to 3, those of early members first.
+fn subsets(of: &[usize], size: usize) -> Vec<Vec<usize>> {
+    let mut sets: Vec<Vec<usize>> = vec![Vec::new()];
+    for _ in 0..size {
+        sets = sets
+            .iter()
+            .flat_map(|set| {
+                let from = set.last().map_or(0, |&last: &usize| last + 1);
+                (from..of.len()).map(|next| [set.as_slice(), &[next]].concat())
+            })
+            .collect();
+    }
+    sets.into_iter().map(|set| set.into_iter().map(|i| of[i]).collect()).collect()
+}
+
+/// Asks less at a knot: this join, or at an end no curvature.
+fn weaken(run: &mut Run, i: usize, join: Join) {
+    if is_interior(run, i) {
+        run.knots[i].join = join;
+    } else {
+        run.knots[i].curvature = None;
+    }
+}
+
+/// How hard it is to be smooth at a knot: large for sharp turns and for neighbours at very different
+/// distances.
+fn strain(run: &Run, i: usize) -> f64 {
+    chord_ratio(run, i).ln() + run.knots[i].turn.abs()
+}
+
+/// The longer of the two chords at a knot over the shorter.
+fn chord_ratio(run: &Run, i: usize) -> f64 {
+    let n = run.knots.len();
+    let (before, after) = (run.chord((i + n - 1) % n).hypot(), run.chord(i).hypot());
+    (before / after).max(after / before)
+}
+
+/// What the weakened run no longer asks, knot by knot.
+pub(super) fn relaxations(run: &Run, weaker: &Run) -> Vec<Relaxation> {
+    let changes = run.knots.iter().zip(&weaker.knots).enumerate();
+    changes
+        .filter(|(_, (asked, got))| asked != got)
+        .map(|(i, (asked, got))| {
+            let is_smooth_end = !is_interior(run, i) && asked.join != Join::Corner;
+            let (asked, got) = if is_interior(run, i) {
+                (asked.join.name(), got.join.name())
+            } else if asked.tangent != got.tangent {
+                // The run no longer meets what lies beyond in its direction.
+                if is_smooth_end {
+                    (asked.join.name(), Join::Corner.name())
+                } else {
+                    ("tangent", "free")
+                }
+            } else if is_smooth_end && asked.join != Join::G1 {
+                // The curvature was that of the straight line beyond.
+                (asked.join.name(), Join::G1.name())
+            } else {
+                ("curvature", "free")
+            };
+            Relaxation { place: Place::Knot(i), asked, got, reason: reason(run, i) }
+        })
+        .collect()
+}
+
+/// Why, in words for a designer that don't depend on the contour's direction.
+fn reason(run: &Run, i: usize) -> String {
+    /// Neighbours at distances in a larger ratio than this make curvature hard to join.
+    const UNEVEN: f64 = 10.0;
+    /// Knots that turn by more than this are hard to pass smoothly, in degrees.
+    const SHARP: f64 = 120.0;
+    let knot = &run.knots[i];
+    if !is_interior(run, i) {
+        let (chord, is_start) = if i == 0 { (0, true) } else { (run.segment_count() - 1, false) };
+        let chord = direction(run.chord(chord));
+        let Some(tangent) = knot.tangent else {
+            return "no curve was found that has this curvature here".to_owned();
+        };
+        let off = wrap_angle(if is_start { chord - tangent } else { tangent - chord });
+        let off = off.abs().to_degrees().round();
+        return if knot.join == Join::Corner {
+            format!("no curve was found that turns {off}° between this end and its neighbour")
+        } else {
+            format!(
+                "the curve can't turn {off}° between this knot and its neighbour and also join the \
+                 straight line smoothly"
+            )
+        };
+    }
+    let turn = knot.turn.abs().to_degrees().round();
+    let ratio = chord_ratio(run, i);
+    if ratio >= UNEVEN {
+        format!(
+            "one neighbour is {ratio:.0} times as far away as the other, where the knots turn {turn}°: \
+             no curve was found that is as smooth as that on both sides"
+        )
+    } else if turn >= SHARP {
+        format!("the knots turn {turn}° here, too sharply for any curve that was found")
+    } else if matches!(knot.join, Join::CurveToTerminal | Join::TerminalToCurve) {
+        format!(
+            "no curve was found that turns {turn}° here and leaves the straight side of this knot \
+             undisturbed"
+        )
+    } else {
+        format!("no curve was found that joins in this way where the knots turn {turn}°")
+    }
+}

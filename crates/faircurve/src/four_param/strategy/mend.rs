@@ -1,0 +1,137 @@
+//! Mending: bad stretches are restarted alone, with their rim held.
+
+use super::{Badness, REACH, Rescue, UNSETTLED, is_unsettled, turn_round};
+use crate::four_param::family::FourParamFamily;
+use crate::four_param::system::RunSystem;
+use crate::frame::wrap_angle;
+
+impl Rescue {
+    /// Restarts bad stretches until all are good or one has had its share of attempts.
+    pub(super) fn mend<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>) {
+        /// Attempts without success after which the run as a whole deserves a look.
+        const PATIENCE: usize = 60;
+        /// Knots on either side of a bad stretch that are restarted with it.
+        const MARGINS: [usize; 6] = [1, 2, 3, 5, 8, 12];
+        /// Looking over this many knots costs about as much as evaluating one segment.
+        const BOOKKEEPING: usize = 16;
+        let n = system.knots.len();
+        let mut attempt = 0;
+        while self.budget > 0 && attempt < PATIENCE {
+            let stretches = bad_stretches(system, MARGINS[attempt % MARGINS.len()]);
+            let Some(&(from, to)) =
+                stretches.get((attempt / MARGINS.len()) % stretches.len().max(1))
+            else {
+                return;
+            };
+            attempt += 1;
+            self.spend(n / BOOKKEEPING);
+            let Some(window) = self.restart(system, from, to, attempt) else { continue };
+            let (before, badness) = (system.state(), Badness::of(system));
+            system.adopt(&window, from);
+            self.settle_around(system, from, to);
+            if Badness::of(system) < badness {
+                attempt = 0;
+            } else {
+                system.set_state(&before);
+            }
+        }
+    }
+
+    /// Gives the stretch between two knots another winding and another start; returns it if it
+    /// settles with its rim held.
+    fn restart<'a, F: FourParamFamily>(
+        &mut self,
+        system: &RunSystem<'a, F>,
+        from: usize,
+        to: usize,
+        attempt: usize,
+    ) -> Option<RunSystem<'a, F>> {
+        /// Turns smaller than this (in radians) are never the wrong way round.
+        const GENTLE: f64 = 1.0;
+        const SHARE_TURNED: f64 = 0.3;
+        /// One attempt in this many builds the stretch knot by knot instead.
+        const GROWN: usize = 5;
+        let mut window = if from == to { system.clone() } else { system.window(from, to) };
+        if attempt.is_multiple_of(GROWN) && from != to {
+            self.grow_open(&mut window);
+        } else {
+            let amplitude = (attempt % 4) as f64 / 3.0;
+            for knot in &mut window.knots {
+                knot.turn = wrap_angle(knot.turn);
+                if knot.turn.abs() > GENTLE && self.random.next() < SHARE_TURNED {
+                    turn_round(knot);
+                }
+            }
+            for parameters in &mut window.parameters {
+                *parameters = self.seed(amplitude);
+            }
+        }
+        let outcome = self.solve_window(&mut window);
+        (outcome.residual <= UNSETTLED).then_some(window)
+    }
+
+    /// Parameters of about the size that hard solutions have.
+    pub(super) fn seed(&mut self, amplitude: f64) -> [f64; 4] {
+        const SIZES: [f64; 4] = [1.0, 4.0, 10.0, 40.0];
+        SIZES.map(|size| self.sense * amplitude * size * (2.0 * self.random.next() - 1.0))
+    }
+
+    /// Lets the surroundings of a mended stretch adapt to it.
+    fn settle_around<F: FourParamFamily>(
+        &mut self,
+        system: &mut RunSystem<'_, F>,
+        from: usize,
+        to: usize,
+    ) {
+        let n = system.knots.len();
+        let inside = if to > from { to - from } else { to + n - from };
+        if inside + 2 * REACH >= n {
+            self.solve_window(system);
+        } else {
+            let (from, to) = if system.is_closed() {
+                ((from + n - REACH) % n, (to + REACH) % n)
+            } else {
+                (from.saturating_sub(REACH), (to + REACH).min(n - 1))
+            };
+            let mut window = system.window(from, to);
+            self.solve_window(&mut window);
+            system.adopt(&window, from);
+        }
+    }
+}
+
+/// The stretches around bad knots, or around loops if there are none, with a margin of so many knots on either side, as
+/// first and last knot; a stretch that covers a whole closed run has both the same.
+fn bad_stretches<F: FourParamFamily>(
+    system: &RunSystem<'_, F>,
+    margin: usize,
+) -> Vec<(usize, usize)> {
+    let n = system.knots.len();
+    let closed = system.is_closed();
+    let mut near: Vec<bool> = (0..n).map(|i| is_unsettled(system, i)).collect();
+    // Loops wait until all has settled: much of a budget could go into them.
+    let all_settled = !near.contains(&true);
+    for segment in system.loops().filter(|_| all_settled) {
+        near[segment] = true;
+        near[(segment + 1) % n] = true;
+    }
+    for _ in 0..margin {
+        let before = near.clone();
+        for i in 0..n {
+            near[i] |= (closed || i > 0) && before[(i + n - 1) % n]
+                || (closed || i + 1 < n) && before[(i + 1) % n];
+        }
+    }
+    if near.iter().all(|&near| near) {
+        return vec![if closed { (0, 0) } else { (0, n - 1) }];
+    }
+    let starts = |i: usize| near[i] && !((closed || i > 0) && near[(i + n - 1) % n]);
+    (0..n)
+        .filter(|&i| starts(i))
+        .map(|i| {
+            let more = (1..n).take_while(|d| near[(i + d) % n] && (closed || i + d < n)).count();
+            (i, (i + more) % n)
+        })
+        .filter(|(from, to)| from != to)
+        .collect()
+}

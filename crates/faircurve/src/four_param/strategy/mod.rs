@@ -1,0 +1,274 @@
+//! How a run is solved when plain Newton iteration isn't enough. The measurements behind it are in
+//! `docs/decisions/0004-strategy.md`.
+//!
+//! 1. **Newton** from straight segments, each segment's step limited on its own, so that good
+//!    stretches settle while bad ones still bounce. Nearly all real contours end here. Two and three
+//!    knots, and knots on a circle, start from arcs, which are the solution.
+//! 2. **Bridging** ([`bridge`]), where a segment is much longer than its neighbours: the chains on
+//!    both sides are solved alone, and the long segment is hung between them in its straightest form.
+//! 3. **Mending** ([`mend`]), where few knots are bad. A stretch that doesn't settle, or loops, is
+//!    restarted alone, its rim held, with other *windings* and other seeds, until it settles. Windings
+//!    decide hard cases: a knot at which the chords turn by t may have to be joined as t ∓ 2π, the
+//!    other way round.
+//! 4. **Growing** ([`grow`]), where something is still bad. The run is built anew knot by knot: each
+//!    step adds one and lets the last few settle with a free end, in the few windings nearest to the
+//!    natural one. What is left is mended, and the whole run solved on from there.
+//!
+//! The search sees rounded numbers, so that it takes the same course however the drawing is moved,
+//! turned or scaled; the last word is Newton's, on the exact ones. It is deterministic: seeds are
+//! fixed, and the budget counts work, not time.
+
+mod bridge;
+mod grow;
+mod mend;
+
+use std::f64::consts::TAU;
+
+use crate::four_param::family::FourParamFamily;
+use crate::four_param::system::{RunSystem, State, SystemKnot};
+use crate::frame::wrap_angle;
+use crate::numeric::block_tridiagonal::BlockTridiagonal;
+use crate::numeric::newton::{Limits, Outcome, newton};
+use crate::spline::Stage;
+use crate::tolerance::SOLVED;
+
+/// How plain Newton iteration is limited. Runs that converge take 3 to 10 steps; with more of them
+/// success comes to depend on rounding errors, and so on how the drawing is turned.
+const PLAIN: Limits = Limits { iterations: 16, patience: 8 };
+
+/// The same within the search, whose numbers are rounded.
+const LONG: Limits = Limits { iterations: 30, patience: 12 };
+
+/// A stretch that settles does so in fewer.
+const WINDOW: Limits = Limits { iterations: 12, patience: 8 };
+
+/// Knots whose residual exceeds this haven't settled.
+pub(in crate::four_param) const UNSETTLED: f64 = 1e-4;
+
+/// With a smaller share of unsettled knots than this, the rest is good ground for mending.
+const FEW: f64 = 0.3;
+
+/// The effect of one knot on another falls by a factor of about ¼ (G2) or ½ (G4) a knot: this far
+/// away it is small.
+const REACH: usize = 10;
+
+/// Stage 1. Solves the system if plain iteration leads to a curve without loops; else leaves the
+/// state that it ended in. `arcs` gives segments between circle tangents.
+pub(in crate::four_param) fn solve_plainly<F: FourParamFamily>(
+    system: &mut RunSystem<'_, F>,
+    matrix: &mut BlockTridiagonal<2>,
+    arcs: impl Fn() -> Vec<[f64; 4]>,
+) -> (Outcome, bool) {
+    // Three knots always lie on a circle, two too many times.
+    if system.knots.len() <= 3
+        && let Some(round) = solve_round(system, matrix, arcs())
+    {
+        return (round, true);
+    }
+    let plain = newton(system, matrix, PLAIN);
+    if plain.residual <= SOLVED && system.loops().next().is_none() {
+        return (plain, true);
+    }
+    match solve_round(system, matrix, arcs()) {
+        Some(round) => (round, true),
+        None => (plain, false),
+    }
+}
+
+/// Stages 2 to 4, from the state that [`solve_plainly`] left; `budget` is what they may spend, in
+/// segment evaluations. Ends in the best state found.
+pub(in crate::four_param) fn search<F: FourParamFamily>(
+    system: &mut RunSystem<'_, F>,
+    matrix: &mut BlockTridiagonal<2>,
+    plain: Outcome,
+    budget: &mut usize,
+) -> (Outcome, Stage) {
+    if *budget == 0 {
+        return (plain, Stage::Plain);
+    }
+    let plain_state = system.state();
+    let mut rounded = system.rounded();
+    let mut rescue = Rescue::new(&rounded, *budget);
+    let stage = rescue.run(&mut rounded, matrix);
+    *budget = rescue.budget;
+    system.take_from_rounded(&rounded);
+    let rescued = newton(system, matrix, PLAIN);
+    let iterations = plain.iterations + rescue.iterations + rescued.iterations;
+    if rescued.residual > SOLVED && plain.residual <= SOLVED {
+        system.set_state(&plain_state);
+        return (Outcome { iterations, ..plain }, Stage::Plain);
+    }
+    (Outcome { iterations, ..rescued }, stage)
+}
+
+/// Knots on a circle: the circle it is, though most of it may lie between two of them.
+fn solve_round<F: FourParamFamily>(
+    system: &mut RunSystem<'_, F>,
+    matrix: &mut BlockTridiagonal<2>,
+    arcs: Vec<[f64; 4]>,
+) -> Option<Outcome> {
+    let before = std::mem::replace(&mut system.parameters, arcs);
+    let round = newton(system, matrix, Limits { iterations: 0, patience: 0 });
+    if round.residual <= SOLVED {
+        Some(newton(system, matrix, PLAIN))
+    } else {
+        system.parameters = before;
+        system.evaluate();
+        None
+    }
+}
+
+/// What is wrong with a state; less is better.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Badness {
+    /// Knots that haven't settled.
+    unsettled: usize,
+    /// Segments that loop.
+    loops: usize,
+}
+
+impl Badness {
+    fn of<F: FourParamFamily>(system: &RunSystem<'_, F>) -> Self {
+        Badness {
+            unsettled: (0..system.knots.len()).filter(|&i| is_unsettled(system, i)).count(),
+            loops: system.loops().count(),
+        }
+    }
+}
+
+fn is_unsettled<F: FourParamFamily>(system: &RunSystem<'_, F>, knot: usize) -> bool {
+    !(system.knot_residual(knot) <= UNSETTLED)
+}
+
+/// The best state of the whole run so far.
+struct Best {
+    state: State,
+    badness: Badness,
+    residual: f64,
+    stage: Stage,
+}
+
+impl Best {
+    fn is_good(&self) -> bool {
+        self.residual <= SOLVED && self.badness.loops == 0
+    }
+}
+
+/// Stages 2 to 4 on one run.
+struct Rescue {
+    budget: usize,
+    random: Random,
+    /// The sign of the run's first turn: seeds mirror with the run.
+    sense: f64,
+    iterations: usize,
+}
+
+impl Rescue {
+    fn new<F: FourParamFamily>(system: &RunSystem<'_, F>, budget: usize) -> Self {
+        let first = system.knots.iter().find(|knot| knot.turn.abs() > 1e-6);
+        let sense = first.map_or(1.0, |knot| knot.turn.signum());
+        Rescue { budget, random: Random(0), sense, iterations: 0 }
+    }
+
+    /// Leaves the best state found in `system`, and says which stage it comes from.
+    fn run<F: FourParamFamily>(
+        &mut self,
+        system: &mut RunSystem<'_, F>,
+        matrix: &mut BlockTridiagonal<2>,
+    ) -> Stage {
+        /// Growing costs at least this much a knot.
+        const COST: usize = 40;
+        let n = system.knots.len();
+        let residual = self.newton(system, matrix, LONG).residual;
+        let mut best = Best {
+            state: system.state(),
+            badness: Badness::of(system),
+            residual,
+            stage: Stage::Plain,
+        };
+        if n > 3 && self.bridge(system) {
+            self.settle(system, matrix, Stage::Bridged, &mut best);
+            if best.is_good() {
+                return best.stage;
+            }
+        }
+        system.set_state(&best.state);
+        if (best.badness.unsettled as f64) < FEW * n as f64 {
+            self.mend(system);
+        }
+        let mut stage = Stage::Mended;
+        if n > 4 && self.budget > n * COST && Badness::of(system).unsettled > 0 {
+            self.grow(system);
+            let (grown, badness) = (system.state(), Badness::of(system));
+            self.newton(system, matrix, Limits { iterations: 8, patience: 8 });
+            if Badness::of(system) > badness {
+                system.set_state(&grown);
+            }
+            stage = Stage::Grown;
+        }
+        loop {
+            self.mend(system);
+            self.settle(system, matrix, stage, &mut best);
+            system.set_state(&best.state);
+            if self.budget == 0 || best.is_good() {
+                return best.stage;
+            }
+        }
+    }
+
+    /// Lets the whole run settle, and keeps it if that is the best so far.
+    fn settle<F: FourParamFamily>(
+        &mut self,
+        system: &mut RunSystem<'_, F>,
+        matrix: &mut BlockTridiagonal<2>,
+        stage: Stage,
+        best: &mut Best,
+    ) {
+        let residual = self.newton(system, matrix, LONG).residual;
+        let badness = Badness::of(system);
+        if (badness, residual) < (best.badness, best.residual) {
+            *best = Best { state: system.state(), badness, residual, stage };
+        }
+    }
+
+    fn solve_window<F: FourParamFamily>(&mut self, window: &mut RunSystem<'_, F>) -> Outcome {
+        let mut matrix = BlockTridiagonal::new(window.knots.len(), window.is_closed());
+        self.newton(window, &mut matrix, WINDOW)
+    }
+
+    fn newton<F: FourParamFamily>(
+        &mut self,
+        system: &mut RunSystem<'_, F>,
+        matrix: &mut BlockTridiagonal<2>,
+        limits: Limits,
+    ) -> Outcome {
+        let outcome = newton(system, matrix, limits);
+        self.iterations += outcome.iterations;
+        self.spend((outcome.iterations + 1) * system.parameters.len());
+        outcome
+    }
+
+    fn spend(&mut self, work: usize) {
+        self.budget = self.budget.saturating_sub(work);
+    }
+}
+
+/// Changes the winding at a knot: from the natural one to the other way round, or back.
+fn turn_round(knot: &mut SystemKnot) {
+    let natural = wrap_angle(knot.turn);
+    knot.turn = if knot.turn == natural { natural - TAU.copysign(natural) } else { natural };
+}
+
+/// A fixed sequence of numbers in [0, 1) (splitmix64).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^= z >> 31;
+        (z >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
