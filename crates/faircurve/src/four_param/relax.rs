@@ -187,12 +187,14 @@ fn subsets(of: &[usize], size: usize) -> Vec<Vec<usize>> {
     sets.into_iter().map(|set| set.into_iter().map(|i| of[i]).collect()).collect()
 }
 
-/// Asks less at a knot: this join, or at an end no curvature.
+/// Asks less at a knot: this join, or at an end no curvature. A G2 knot has no room for a tangent.
 fn weaken(run: &mut Run, i: usize, join: Join) {
-    if is_interior(run, i) {
-        run.knots[i].join = join;
+    let is_interior = is_interior(run, i);
+    let knot = &mut run.knots[i];
+    if is_interior {
+        knot.join = if knot.tangent.is_some() { Join::G1 } else { join };
     } else {
-        run.knots[i].curvature = None;
+        knot.curvature = None;
     }
 }
 
@@ -211,29 +213,35 @@ fn chord_ratio(run: &Run, i: usize) -> f64 {
 
 /// What the weakened run no longer asks, knot by knot.
 pub(super) fn relaxations(run: &Run, weaker: &Run) -> Vec<Relaxation> {
-    let changes = run.knots.iter().zip(&weaker.knots).enumerate();
-    changes
-        .filter(|(_, (asked, got))| asked != got)
-        .map(|(i, (asked, got))| {
-            let is_smooth_end = !is_interior(run, i) && asked.join != Join::Corner;
-            let (asked, got) = if is_interior(run, i) {
-                (asked.join.name(), got.join.name())
-            } else if asked.tangent != got.tangent {
-                // The run no longer meets what lies beyond in its direction.
-                if is_smooth_end {
-                    (asked.join.name(), Join::Corner.name())
-                } else {
-                    ("tangent", "free")
-                }
-            } else if is_smooth_end && asked.join != Join::G1 {
-                // The curvature was that of the straight line beyond.
-                (asked.join.name(), Join::G1.name())
-            } else {
-                ("curvature", "free")
-            };
-            Relaxation { place: Place::Knot(i), asked, got, reason: reason(run, i) }
-        })
-        .collect()
+    let mut relaxed = Vec::new();
+    for i in weakened(run, weaker) {
+        let (asked, got) = (&run.knots[i], &weaker.knots[i]);
+        let (no_tangent, no_curvature) =
+            (asked.tangent != got.tangent, asked.curvature != got.curvature);
+        let mut relax = |asked, got| {
+            let reason = reason(run, i);
+            relaxed.push(Relaxation { place: Place::Knot(i), asked, got, reason });
+        };
+        // At the end of a run that goes on beyond, tangent and curvature are what it meets there: a
+        // straight line's, or the tangent that a G1 knot has.
+        let meets = !is_interior(run, i) && asked.join != Join::Corner;
+        if meets && no_tangent {
+            relax(asked.join.name(), Join::Corner.name());
+        } else if meets && no_curvature && asked.join != Join::G1 {
+            relax(asked.join.name(), Join::G1.name());
+        } else {
+            if is_interior(run, i) && asked.join != got.join {
+                relax(asked.join.name(), got.join.name());
+            }
+            if no_tangent {
+                relax("tangent", "free");
+            }
+            if no_curvature {
+                relax("curvature", "free");
+            }
+        }
+    }
+    relaxed
 }
 
 /// Why, in words for a designer that don't depend on the contour's direction.
