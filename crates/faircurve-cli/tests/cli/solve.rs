@@ -147,8 +147,8 @@ fn relaxed_is_written_named_and_exits_with_3() {
     assert_eq!(run.code, 3);
     let (relaxed, hint) = run.stderr.split_once('\n').unwrap();
     // The reason is the solver's to word.
-    let place = "relaxed: hard.json: glyph `a`, layer `Fore`, contour 1, knot 1: asked g4, got g";
-    assert!(relaxed.starts_with(place) && relaxed.matches(": ").count() >= 4, "{relaxed}");
+    let place = "relaxed: hard.json: glyph `a`, layer `Fore`, contour 1, knot 1: asked curvature, got free: ";
+    assert!(relaxed.starts_with(place) && relaxed.len() > place.len(), "{relaxed}");
     insta::assert_snapshot!(hint, @r"
     hint: 1 of 2 contours could not be solved as asked: move knots or ask for less there, or accept the nearest curve with --allow-relaxed
     ");

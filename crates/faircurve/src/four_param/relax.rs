@@ -159,11 +159,8 @@ fn weakenable(run: &Run, solved: &Solved, join: Join) -> Vec<usize> {
     let mut knots: Vec<usize> = (0..run.knots.len())
         .filter(|&i| {
             let knot = &run.knots[i];
-            if is_interior(run, i) {
-                ![join, Join::G1].contains(&knot.join)
-            } else {
-                knot.curvature.is_some()
-            }
+            let is_stronger = is_interior(run, i) && ![join, Join::G1].contains(&knot.join);
+            is_stronger || knot.curvature.is_some()
         })
         .collect();
     knots.sort_by(|&a, &b| {
@@ -187,14 +184,13 @@ fn subsets(of: &[usize], size: usize) -> Vec<Vec<usize>> {
     sets.into_iter().map(|set| set.into_iter().map(|i| of[i]).collect()).collect()
 }
 
-/// Asks less at a knot: this join, or at an end no curvature. A G2 knot has no room for a tangent.
+/// Asks less at a knot: no curvature where one is given, else this join. A G2 knot has no room for
+/// a tangent.
 fn weaken(run: &mut Run, i: usize, join: Join) {
     let is_interior = is_interior(run, i);
     let knot = &mut run.knots[i];
-    if is_interior {
+    if knot.curvature.take().is_none() && is_interior {
         knot.join = if knot.tangent.is_some() { Join::G1 } else { join };
-    } else {
-        knot.curvature = None;
     }
 }
 
@@ -219,7 +215,11 @@ pub(super) fn relaxations(run: &Run, weaker: &Run) -> Vec<Relaxation> {
         let (no_tangent, no_curvature) =
             (asked.tangent != got.tangent, asked.curvature != got.curvature);
         let mut relax = |asked, got| {
-            let reason = reason(run, i);
+            let reason = if asked == "curvature" {
+                "no curve was found that has this curvature here".to_owned()
+            } else {
+                reason(run, i)
+            };
             relaxed.push(Relaxation { place: Place::Knot(i), asked, got, reason });
         };
         // At the end of a run that goes on beyond, tangent and curvature are what it meets there: a
@@ -254,9 +254,7 @@ fn reason(run: &Run, i: usize) -> String {
     if !is_interior(run, i) {
         let (chord, is_start) = if i == 0 { (0, true) } else { (run.segment_count() - 1, false) };
         let chord = direction(run.chord(chord));
-        let Some(tangent) = knot.tangent else {
-            return "no curve was found that has this curvature here".to_owned();
-        };
+        let tangent = knot.tangent.unwrap_or(chord);
         let off = wrap_angle(if is_start { chord - tangent } else { tangent - chord });
         let off = off.abs().to_degrees().round();
         return if knot.join == Join::Corner {
