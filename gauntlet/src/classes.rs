@@ -38,6 +38,8 @@ struct Tally {
     falsehoods: usize,
     not_finite: usize,
     most_iterations: usize,
+    /// How many of the solved come from each stage, in the order of `Stage::ALL`.
+    stages: [usize; 4],
     /// Wall time of the solve, over all cases.
     our_seconds: f64,
     libspiro_returns_one: usize,
@@ -120,6 +122,7 @@ pub(crate) fn run(filter: &str, cases: usize) -> Result<Report, Failure> {
             t.most_iterations = t.most_iterations.max(ours.solution.report.iterations);
             if ours.is_solved() {
                 t.solved += 1;
+                t.stages[ours.solution.report.stage as usize] += 1;
                 t.loops += usize::from(ours.longest > LOOP);
                 t.longest = t.longest.max(ours.longest);
                 t.largest_residual = t.largest_residual.max(ours.as_asked.value);
@@ -214,6 +217,7 @@ fn class_table(tallies: &[Tally]) -> String {
                 t.falsehoods.to_string(),
                 t.not_finite.to_string(),
                 t.most_iterations.to_string(),
+                t.stages.map(|stage| stage.to_string()).join(" "),
                 milliseconds(t.our_seconds),
                 of_all(t.libspiro_returns_one),
                 of_all(t.libspiro_truly_solved),
@@ -236,6 +240,7 @@ fn class_table(tallies: &[Tally]) -> String {
         "false",
         "not finite",
         "steps",
+        "stages",
         "ms",
         "libspiro: 1",
         "true",

@@ -385,8 +385,6 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "euler drops a curvature of 0 given beside a tangent without saying so, and what is \
-                relaxed at the ends of runs is misnamed"]
     fn nothing_happens_that_must_never() {
         let report = run(2000, 0).unwrap_or_else(|failure| panic!("{}", failure.message));
         assert_eq!(report.alarms, [""; 0]);

@@ -111,7 +111,8 @@ struct Node {
 
 /// The places of a contour, by the rule of `faircurve::tolerance`: neighbours within [`COINCIDENT`]
 /// times their largest coordinate, or within [`INVISIBLE`] times the drawing's size (that is, the
-/// power of two next above it), are one, at the place of the one that the contour lists first.
+/// power of two next above it), are one, at the place of the one that the contour lists first; so is
+/// what comes back to the first of them.
 fn nodes(contour: &Contour) -> Vec<Node> {
     let points: Vec<Point> = contour.knots.iter().map(|knot| knot.point).collect();
     let extent = |coordinate: fn(&Point) -> f64| {
@@ -128,13 +129,16 @@ fn nodes(contour: &Contour) -> Vec<Node> {
     let mut nodes: Vec<Node> = Vec::with_capacity(points.len());
     for (i, &point) in points.iter().enumerate() {
         match nodes.last_mut() {
-            Some(node) if coincide(i - 1, i) => node.last = i,
+            Some(node) if coincide(i - 1, i) || coincide(node.first, i) => node.last = i,
             _ => nodes.push(Node { first: i, last: i, point }),
         }
     }
-    if contour.closed && nodes.len() > 1 && coincide(points.len() - 1, 0) {
-        let tail = nodes.pop();
-        nodes[0].first = tail.map_or(0, |tail| tail.first);
+    while contour.closed
+        && let [_, .., tail] = &nodes[..]
+        && (coincide(tail.last, 0) || coincide(tail.first, 0))
+    {
+        nodes[0].first = tail.first;
+        nodes.pop();
     }
     nodes
 }

@@ -50,6 +50,12 @@ pub(crate) struct SolveArgs {
     #[arg(long, value_name = "UNITS", allow_negative_numbers = true, help_heading = "Solving")]
     pub(crate) accuracy: Option<String>,
 
+    /// How long to search where a contour is hard, before something is relaxed: 1 is at most about
+    /// 50 ms a contour, 20 a second. Counts work, so that the result doesn't depend on the machine.
+    /// Default: 1.
+    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, help_heading = "Solving")]
+    pub(crate) effort: Option<String>,
+
     /// Format of the input: json, csv or sfd. Default: by the file's extension; json for stdin.
     #[arg(long, value_name = "KIND", help_heading = "Choosing")]
     pub(crate) from: Option<String>,

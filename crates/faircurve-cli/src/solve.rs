@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use faircurve::Solution;
+use faircurve::{Effort, Solution};
 use faircurve_format::SolvedGlyph;
 use rayon::prelude::*;
 
@@ -17,10 +17,10 @@ use crate::select::{self, Job};
 /// Read, select, solve, format, write, report.
 pub(crate) fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     let output = Output::new(args)?;
-    let accuracy = accuracy(args)?;
+    let (accuracy, effort) = (accuracy(args)?, effort(args)?);
     let sources = input::read(&args.inputs, args.from.as_deref())?;
     let jobs = select::select(sources, args)?;
-    let solved = solve(&jobs, accuracy)?;
+    let solved = solve(&jobs, accuracy, effort)?;
     let bytes = output.format(&solved)?;
     output.write(&bytes)?;
     Ok(report::report(&jobs, &solved, args.allow_relaxed))
@@ -32,11 +32,18 @@ fn accuracy(args: &SolveArgs) -> Result<Option<f64>, Failure> {
     args.accuracy.as_deref().map(read).transpose()
 }
 
+fn effort(args: &SolveArgs) -> Result<Effort, Failure> {
+    let allowed = |factor: &f64| *factor >= 0.0 && factor.is_finite();
+    let read = |text: &str| args::number("effort", text, "a number from 0", allowed);
+    let factor = args.effort.as_deref().map(read).transpose()?;
+    Ok(factor.map_or_else(Effort::default, Effort::times))
+}
+
 /// Solves every glyph, over all cores. The first input that is at fault fails the whole.
-fn solve(jobs: &[Job], accuracy: Option<f64>) -> Result<Vec<SolvedGlyph>, Failure> {
+fn solve(jobs: &[Job], accuracy: Option<f64>, effort: Effort) -> Result<Vec<SolvedGlyph>, Failure> {
     let progress = Progress::new(jobs.len());
     let solve = |job: &Job| {
-        let glyph = solve_glyph(job, accuracy);
+        let glyph = solve_glyph(job, accuracy, effort);
         progress.step();
         glyph
     };
@@ -44,11 +51,12 @@ fn solve(jobs: &[Job], accuracy: Option<f64>) -> Result<Vec<SolvedGlyph>, Failur
     solved.into_iter().collect()
 }
 
-fn solve_glyph(job: &Job, accuracy: Option<f64>) -> Result<SolvedGlyph, Failure> {
+fn solve_glyph(job: &Job, accuracy: Option<f64>, effort: Effort) -> Result<SolvedGlyph, Failure> {
     let solve = |(index, (contour, spline)): (usize, &(_, Box<dyn faircurve::Spline>))| {
-        let solution: Solution = faircurve::solve(contour, &**spline).map_err(|error| {
-            Failure::new(error.to_string()).hint(error.hint()).within(&job.place(index))
-        })?;
+        let solution: Solution =
+            faircurve::solve_with(contour, &**spline, effort).map_err(|error| {
+                Failure::new(error.to_string()).hint(error.hint()).within(&job.place(index))
+            })?;
         Ok((spline.name().to_owned(), solution))
     };
     let contours: Result<Vec<_>, Failure> = job.contours.iter().enumerate().map(solve).collect();

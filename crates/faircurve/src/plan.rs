@@ -411,8 +411,10 @@ impl Plan {
             report.residual = report.residual.max(solution.residual);
             report.stage = report.stage.max(solution.stage);
         }
-        // Both runs at a knot may say the same of it.
-        report.relaxed.sort_by_key(|r| (r.place, r.asked, Join::from_name(r.got)));
+        // Joins before what is given. Both runs at a knot may say the same of it.
+        report.relaxed.sort_by_key(|r| {
+            (r.place, Join::from_name(r.asked).is_none(), r.asked, Join::from_name(r.got))
+        });
         report.relaxed.dedup_by_key(|r| (r.place, r.asked));
         report.adapted.sort_by_key(|adaptation| adaptation.place);
         let placed = self.place_segments(&shapes);

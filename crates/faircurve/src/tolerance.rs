@@ -3,7 +3,8 @@
 //! They are multiples of the machine epsilon where rounding sets them, and dimensionless: the
 //! [plan](crate::plan) brings every contour to unit size.
 
-/// Neighbouring knots closer than this times their largest coordinate are one knot.
+/// Neighbouring knots closer than this times their largest coordinate are one knot, together with
+/// those after them that are as close to the first of them.
 ///
 /// At this distance the direction between them is known to about a hundredth of a radian. Smaller,
 /// and the curve follows rounding noise; larger, and details that a designer drew would vanish.

@@ -124,6 +124,10 @@ fn names() {
 
 #[test]
 fn options_that_make_no_sense() {
+    insta::assert_snapshot!(refusal("solve drawing.csv --effort lots"), @r"
+    error: --effort can't be `lots`
+    hint: it takes a number from 0
+    ");
     insta::assert_snapshot!(refusal("solve drawing.csv --accuracy -1"), @r"
     error: --accuracy can't be `-1`
     hint: it takes a number of units above 0

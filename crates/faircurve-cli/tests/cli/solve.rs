@@ -14,7 +14,10 @@ const FONT: &str = r#"{"faircurve": 1, "glyphs": [
   {"name": "b", "layer": "Fore", "contours": [{"spline": "euler", "knots": [
     {"x": 0, "y": 0}, {"x": 90, "y": 10}, {"x": 50, "y": 80, "join": "g4"}, {"x": 9, "y": 80}]}]}]}"#;
 
-/// No curve has this tangent, so sharp a bend and chords so long.
+/// Plain iteration doesn't settle on these.
+const HARD: &str = "# closed\n79,32\n94,45\n88,94\n83,67\n3,59\n99,31\n";
+
+/// No curve has this curvature, so sharp a bend and chords so long.
 const IMPOSSIBLE: &str = r#"{"faircurve": 1, "glyphs": [{"name": "a", "layer": "Fore", "contours": [
   {"closed": true, "knots": [{"x": 0, "y": 0}, {"x": 9, "y": 1}, {"x": 5, "y": 8}]},
   {"knots": [{"x": 0, "y": 0, "tangent": [1, 1]}, {"x": 10, "y": 0, "curvature_in": 1000,
@@ -147,8 +150,8 @@ fn relaxed_is_written_named_and_exits_with_3() {
     assert_eq!(run.code, 3);
     let (relaxed, hint) = run.stderr.split_once('\n').unwrap();
     // The reason is the solver's to word.
-    let place = "relaxed: hard.json: glyph `a`, layer `Fore`, contour 1, knot 1: asked g4, got g";
-    assert!(relaxed.starts_with(place) && relaxed.matches(": ").count() >= 4, "{relaxed}");
+    let place = "relaxed: hard.json: glyph `a`, layer `Fore`, contour 1, knot 1: asked curvature, got free: ";
+    assert!(relaxed.starts_with(place) && relaxed.len() > place.len(), "{relaxed}");
     insta::assert_snapshot!(hint, @r"
     hint: 1 of 2 contours could not be solved as asked: move knots or ask for less there, or accept the nearest curve with --allow-relaxed
     ");
@@ -159,6 +162,13 @@ fn relaxed_is_written_named_and_exits_with_3() {
     let text = folder.run("solve hard.json").stdout;
     let file: Value = serde_json::from_str(&text).unwrap();
     assert_eq!(file["glyphs"][0]["contours"][1]["status"], "relaxed");
+}
+
+#[test]
+fn effort_decides_how_far_to_search() {
+    let folder = Folder::new().with("hard.csv", HARD);
+    assert_eq!(folder.run("solve hard.csv --format path").code, 0);
+    assert_eq!(folder.run("solve hard.csv --format path --effort 0").code, 3);
 }
 
 #[test]

@@ -159,11 +159,8 @@ fn weakenable(run: &Run, solved: &Solved, join: Join) -> Vec<usize> {
     let mut knots: Vec<usize> = (0..run.knots.len())
         .filter(|&i| {
             let knot = &run.knots[i];
-            if is_interior(run, i) {
-                ![join, Join::G1].contains(&knot.join)
-            } else {
-                knot.curvature.is_some()
-            }
+            let is_stronger = is_interior(run, i) && ![join, Join::G1].contains(&knot.join);
+            is_stronger || knot.curvature.is_some()
         })
         .collect();
     knots.sort_by(|&a, &b| {
@@ -187,12 +184,13 @@ fn subsets(of: &[usize], size: usize) -> Vec<Vec<usize>> {
     sets.into_iter().map(|set| set.into_iter().map(|i| of[i]).collect()).collect()
 }
 
-/// Asks less at a knot: this join, or at an end no curvature.
+/// Asks less at a knot: no curvature where one is given, else this join. A G2 knot has no room for
+/// a tangent.
 fn weaken(run: &mut Run, i: usize, join: Join) {
-    if is_interior(run, i) {
-        run.knots[i].join = join;
-    } else {
-        run.knots[i].curvature = None;
+    let is_interior = is_interior(run, i);
+    let knot = &mut run.knots[i];
+    if knot.curvature.take().is_none() && is_interior {
+        knot.join = if knot.tangent.is_some() { Join::G1 } else { join };
     }
 }
 
@@ -211,29 +209,39 @@ fn chord_ratio(run: &Run, i: usize) -> f64 {
 
 /// What the weakened run no longer asks, knot by knot.
 pub(super) fn relaxations(run: &Run, weaker: &Run) -> Vec<Relaxation> {
-    let changes = run.knots.iter().zip(&weaker.knots).enumerate();
-    changes
-        .filter(|(_, (asked, got))| asked != got)
-        .map(|(i, (asked, got))| {
-            let is_smooth_end = !is_interior(run, i) && asked.join != Join::Corner;
-            let (asked, got) = if is_interior(run, i) {
-                (asked.join.name(), got.join.name())
-            } else if asked.tangent != got.tangent {
-                // The run no longer meets what lies beyond in its direction.
-                if is_smooth_end {
-                    (asked.join.name(), Join::Corner.name())
-                } else {
-                    ("tangent", "free")
-                }
-            } else if is_smooth_end && asked.join != Join::G1 {
-                // The curvature was that of the straight line beyond.
-                (asked.join.name(), Join::G1.name())
+    let mut relaxed = Vec::new();
+    for i in weakened(run, weaker) {
+        let (asked, got) = (&run.knots[i], &weaker.knots[i]);
+        let (no_tangent, no_curvature) =
+            (asked.tangent != got.tangent, asked.curvature != got.curvature);
+        let mut relax = |asked, got| {
+            let reason = if asked == "curvature" {
+                "no curve was found that has this curvature here".to_owned()
             } else {
-                ("curvature", "free")
+                reason(run, i)
             };
-            Relaxation { place: Place::Knot(i), asked, got, reason: reason(run, i) }
-        })
-        .collect()
+            relaxed.push(Relaxation { place: Place::Knot(i), asked, got, reason });
+        };
+        // At the end of a run that goes on beyond, tangent and curvature are what it meets there: a
+        // straight line's, or the tangent that a G1 knot has.
+        let meets = !is_interior(run, i) && asked.join != Join::Corner;
+        if meets && no_tangent {
+            relax(asked.join.name(), Join::Corner.name());
+        } else if meets && no_curvature && asked.join != Join::G1 {
+            relax(asked.join.name(), Join::G1.name());
+        } else {
+            if is_interior(run, i) && asked.join != got.join {
+                relax(asked.join.name(), got.join.name());
+            }
+            if no_tangent {
+                relax("tangent", "free");
+            }
+            if no_curvature {
+                relax("curvature", "free");
+            }
+        }
+    }
+    relaxed
 }
 
 /// Why, in words for a designer that don't depend on the contour's direction.
@@ -246,9 +254,7 @@ fn reason(run: &Run, i: usize) -> String {
     if !is_interior(run, i) {
         let (chord, is_start) = if i == 0 { (0, true) } else { (run.segment_count() - 1, false) };
         let chord = direction(run.chord(chord));
-        let Some(tangent) = knot.tangent else {
-            return "no curve was found that has this curvature here".to_owned();
-        };
+        let tangent = knot.tangent.unwrap_or(chord);
         let off = wrap_angle(if is_start { chord - tangent } else { tangent - chord });
         let off = off.abs().to_degrees().round();
         return if knot.join == Join::Corner {

@@ -140,7 +140,6 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
             let ends = [(0, pair[0]), (count - 1, pair[1])];
             for (end, knot) in ends.into_iter().filter(|&(_, knot)| is_split(knot)) {
                 stretch.knots[end].tangent = Some(self.g1_tangent(run, knot));
-                stretch.knots[end].curvature = None;
             }
             let solved = self.solve_smooth(&stretch, budget);
             for (i, parameters) in solved.parameters.into_iter().enumerate() {

@@ -1,0 +1,77 @@
+//! Contours that plain Newton iteration doesn't solve.
+
+use std::f64::consts::TAU;
+
+use faircurve::kurbo::Point;
+use faircurve::{Contour, Effort, Join, Knot, Solution, Stage, Status, catalog, solve, solve_with};
+
+fn spiro(contour: &Contour) -> Solution {
+    solve(contour, &*catalog::spline("spiro").unwrap()).unwrap()
+}
+
+/// Length over chord of the longest segment.
+fn longest(solution: &Solution) -> f64 {
+    let segments = solution.curve.segments().iter();
+    segments.map(|segment| segment.length() / segment.chord_length()).fold(0.0, f64::max)
+}
+
+/// Several turns of a spiral, closed by one long chord from its outer end to its inner one.
+fn closed_spiral(knots: usize) -> Contour {
+    Contour::closed((0..knots).map(|i| {
+        let angle = TAU / 8.0 * i as f64;
+        let radius = 20.0 + 3.0 * angle;
+        Knot::new((radius * angle.cos(), radius * angle.sin())).join(Join::G4)
+    }))
+}
+
+/// The closing chord hangs on the spiral's two ends.
+#[test]
+fn a_long_chord_is_bridged() {
+    for knots in [90, 160] {
+        let solution = spiro(&closed_spiral(knots));
+        assert_eq!(solution.report.status(), Status::Solved, "{knots}: {:?}", solution.report);
+        assert_eq!(solution.report.stage, Stage::Bridged, "{knots}");
+        assert!(longest(&solution) < 4.0, "{knots}: {}", longest(&solution));
+    }
+}
+
+/// The same knots without any search are relaxed; every knot is still met, every reason given.
+#[test]
+fn without_a_search_the_spiral_is_relaxed() {
+    let knots = 90;
+    let spline = catalog::spline("spiro").unwrap();
+    let solution = solve_with(&closed_spiral(knots), &*spline, Effort::NONE).unwrap();
+    assert_eq!(solution.report.status(), Status::Relaxed);
+    assert_eq!(solution.report.stage, Stage::Plain);
+    for relaxed in &solution.report.relaxed {
+        assert!(!relaxed.reason.is_empty());
+    }
+    for (knot, solved) in closed_spiral(knots).knots.iter().zip(&solution.knots) {
+        assert_eq!(knot.point, solved.point);
+    }
+}
+
+/// More effort never makes a solved contour a relaxed one, and the default solves these.
+#[test]
+fn effort_helps() {
+    let knots = [(79, 32), (94, 45), (88, 94), (83, 67), (3, 59), (99, 31)];
+    let contour = Contour::closed(knots.map(|(x, y)| Point::new(f64::from(x), f64::from(y))));
+    let spline = catalog::spline("spiro").unwrap();
+    let status = |effort| solve_with(&contour, &*spline, effort).unwrap().report.status();
+    assert_eq!(status(Effort::NONE), Status::Relaxed);
+    assert_eq!(status(Effort::default()), Status::Solved);
+    assert_eq!(status(Effort::times(4.0)), Status::Solved);
+    assert_eq!(status(Effort::times(f64::NAN)), Status::Relaxed);
+}
+
+/// Figure 2.7: several curves may satisfy the same equations. The one given is the natural one, and
+/// the same from every start and in both directions.
+#[test]
+fn of_several_curves_the_natural_one_is_given() {
+    let knots = [(0.0, 0.0), (100.0, 0.0), (10.0, 60.0), (90.0, 70.0), (20.0, 140.0)];
+    let length = |contour: &Contour| spiro(contour).curve.length();
+    let forward = Contour::open(knots.map(|p| Knot::new(p).join(Join::G2)));
+    let backward = Contour::open(knots.into_iter().rev().map(|p| Knot::new(p).join(Join::G2)));
+    assert!((length(&forward) - length(&backward)).abs() < 1e-9 * length(&forward));
+    assert!(longest(&spiro(&forward)) < 4.0);
+}
