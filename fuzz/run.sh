@@ -17,8 +17,8 @@ most_findings=3
 # Seconds by the clock after which an input hangs: many, since neighbours may have the processor. What
 # is slow but ends is found by processor time, in the target.
 hang=120
-# Bytes of corpus that are kept of each target: 3 MB in all.
-most_corpus=600000
+# Bytes of corpus that are kept of each target: the smallest inputs, some thousand files in all.
+most_corpus=150000
 
 schedule=(solve bezier solve read_json solve read_sfd solve read_csv)
 targets=(solve bezier read_json read_csv read_sfd)

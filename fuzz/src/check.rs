@@ -3,7 +3,7 @@
 use faircurve::convert::to_bezpath;
 use faircurve::kurbo::{BezPath, ParamCurve, PathEl, PathSeg, Point, Rect};
 use faircurve::tolerance::SOLVED;
-use faircurve::{Contour, Curve, CurvePoint, Join, Place, Segment, Solution, Status};
+use faircurve::{Contour, Curve, CurvePoint, Place, Segment, Solution, Status};
 
 use crate::judge;
 
