@@ -46,8 +46,10 @@ impl Rescue {
         to: usize,
         attempt: usize,
     ) -> Option<RunSystem<'a, F>> {
-        /// Turns smaller than this (in radians) are never the wrong way round.
+        /// Turns smaller than this (in radians) are hardly ever the wrong way round.
         const GENTLE: f64 = 1.0;
+        /// After so many attempts they are tried as well.
+        const AT_A_LOSS: usize = 18;
         const SHARE_TURNED: f64 = 0.3;
         /// One attempt in this many builds the stretch knot by knot instead.
         const GROWN: usize = 5;
@@ -58,7 +60,8 @@ impl Rescue {
             let amplitude = (attempt % 4) as f64 / 3.0;
             for knot in &mut window.knots {
                 knot.turn = wrap_angle(knot.turn);
-                if knot.turn.abs() > GENTLE && self.random.next() < SHARE_TURNED {
+                let may_turn = knot.turn.abs() > GENTLE || attempt > AT_A_LOSS;
+                if may_turn && self.random.next() < SHARE_TURNED {
                     turn_round(knot);
                 }
             }
