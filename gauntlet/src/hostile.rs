@@ -274,6 +274,7 @@ fn kind(error: &InputError) -> &'static str {
         InputError::TooLarge { .. } => "too large",
         InputError::TooSmall => "too small",
         InputError::ZeroTangent { .. } => "zero tangent",
+        InputError::CurvatureTooLarge { .. } => "curvature too large",
         InputError::TangentsDiffer { .. } => "tangents differ",
         InputError::CurvaturesDiffer { .. } => "curvatures differ",
     }

@@ -18,8 +18,8 @@ use crate::spline::{
     Adaptation, Place, Relaxation, RunSolution, Solution, SolveReport, SolvedKnot, Spline,
 };
 use crate::tolerance::{
-    COINCIDENT, COORDINATE_ROUNDING, INVISIBLE, LARGEST_COORDINATE, NEVER_STRAIGHT, SMALLEST_SIZE,
-    STRAIGHT,
+    COINCIDENT, COORDINATE_ROUNDING, INVISIBLE, LARGEST_COORDINATE, LARGEST_CURVATURE,
+    NEVER_STRAIGHT, SMALLEST_SIZE, STRAIGHT,
 };
 
 /// A knot as a spline sees it: in the run's frame, with its join resolved.
@@ -104,6 +104,13 @@ pub enum InputError {
     },
     /// The contour as a whole is smaller than [`SMALLEST_SIZE`], and not a single point.
     TooSmall,
+    /// A given curvature times the size of the contour is larger than [`LARGEST_CURVATURE`].
+    CurvatureTooLarge {
+        /// The knot.
+        knot: usize,
+        /// `curvature_in` or `curvature_out`.
+        what: &'static str,
+    },
     /// A given direction has no length.
     ZeroTangent {
         /// The knot.
@@ -140,6 +147,9 @@ impl fmt::Display for InputError {
             InputError::TooSmall => {
                 write!(f, "the whole contour is smaller than {SMALLEST_SIZE:e} units")
             }
+            InputError::CurvatureTooLarge { knot, what } => {
+                write!(f, "{what} of knot {knot} is that of a circle too small to be drawn here")
+            }
             InputError::ZeroTangent { knot, what } => {
                 write!(f, "{what} of knot {knot} has no length, so no direction")
             }
@@ -163,6 +173,9 @@ impl InputError {
             InputError::NotFinite { .. } => "replace NaN and infinities by ordinary numbers",
             InputError::TooLarge { .. } | InputError::TooSmall => {
                 "scale the drawing; the curve scales with it"
+            }
+            InputError::CurvatureTooLarge { .. } => {
+                "curvature is 1 over the radius, in the drawing's units; or leave it out"
             }
             InputError::ZeroTangent { .. } => "give a vector such as [1, 0], or leave it out",
             InputError::TangentsDiffer { .. } => "make the join `corner`, or give one direction",
@@ -221,6 +234,7 @@ impl Plan {
         check(contour)?;
         let (joins, mut adapted) = resolve_joins(contour, spline);
         let frame = NormalFrame::of(contour)?;
+        frame.check_curvatures(contour)?;
         let mut nodes = merge_coincident(contour, &joins, &frame);
         settle_given(&mut nodes, contour, &mut adapted)?;
         let mut plan = Plan {
@@ -572,6 +586,21 @@ impl NormalFrame {
         }
         let scale = if size > 0.0 { (-size.log2().ceil()).exp2() } else { 1.0 };
         Ok(NormalFrame { scale })
+    }
+
+    /// Refuses curvatures that would leave the range of numbers on the way.
+    fn check_curvatures(&self, contour: &Contour) -> Result<(), InputError> {
+        for (index, knot) in contour.knots.iter().enumerate() {
+            let given =
+                [("curvature_in", knot.curvature_in), ("curvature_out", knot.curvature_out)];
+            for (what, curvature) in given {
+                let is_large = |k: f64| !((k / self.scale).abs() <= LARGEST_CURVATURE);
+                if curvature.is_some_and(is_large) {
+                    return Err(InputError::CurvatureTooLarge { knot: index, what });
+                }
+            }
+        }
+        Ok(())
     }
 
     fn point(&self, p: Point) -> Point {

@@ -50,3 +50,7 @@ pub const LARGEST_COORDINATE: f64 = 1e55;
 
 /// Drawings smaller than this are refused, for the same reason.
 pub const SMALLEST_SIZE: f64 = 1e-55;
+
+/// Given curvatures larger than this over the contour's size are refused: no curve has them, and their
+/// products with lengths would leave the range of numbers.
+pub const LARGEST_CURVATURE: f64 = 1e60;

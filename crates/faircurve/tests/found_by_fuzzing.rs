@@ -2,7 +2,7 @@
 
 use faircurve::convert::to_bezpath;
 use faircurve::kurbo::{PathEl, Point};
-use faircurve::{Contour, Join, Knot, Place, Segment, Solution, catalog, solve};
+use faircurve::{Contour, InputError, Join, Knot, Place, Segment, Solution, catalog, solve};
 
 fn solved(spline: &str, contour: &Contour) -> Solution {
     solve(contour, &*catalog::spline(spline).unwrap()).unwrap()
@@ -118,4 +118,17 @@ fn a_curvature_of_zero_is_met_or_listed() {
     let is_met = solution.knots[0].curvature_out.is_some_and(|k| k.abs() < 1e-9);
     let is_listed = solution.report.adapted.iter().any(|a| a.place == Place::Knot(0));
     assert!(is_met || is_listed, "{solution:?}");
+}
+
+/// The product of this curvature with the chord is beyond the range of numbers; it was called met.
+#[test]
+fn curvatures_beyond_all_numbers_are_refused() {
+    for curvature in [2.9e306, -9e290, 1e70] {
+        let knot = Knot::new((-397309.7, 0.0)).curvature_out(curvature);
+        let contour = Contour::open([knot, Knot::new((0.0, -7.5e24))]);
+        for spline in ["spiro", "euler"] {
+            let error = solve(&contour, &*catalog::spline(spline).unwrap()).unwrap_err();
+            assert_eq!(error, InputError::CurvatureTooLarge { knot: 0, what: "curvature_out" });
+        }
+    }
 }
