@@ -63,7 +63,7 @@ fn segment(segment: &Segment) {
     const ROUNDING: f64 = 1e-9;
     let length = segment.length();
     finite("length", [length, segment.bending_energy(), segment.variation_energy()]);
-    finite("kappa", segment.kappa());
+    finite("kappa", segment.kappa().unwrap_or_default());
     finite_box("box of a segment", segment.bounding_box());
     assert!(
         segment.chord_length() <= length * (1.0 + ROUNDING),

@@ -15,7 +15,8 @@
 //! - `name` and `layer` are empty where the input has none.
 //! - Directions are radians; the side that an open end lacks is `null`.
 //! - `relaxed` and `adapted` entries say where by `"knot"` or `"segment"`.
-//! - `kappa` is k₀ … k₃ of thesis eq. 8.1 with the segment scaled to arc length 1.
+//! - `kappa` is k₀ … k₃ of thesis eq. 8.1 with the segment scaled to arc length 1, for polynomial
+//!   spirals and lines; other segments lack it.
 //! - `samples`, when asked for, are rows [s, x, y, θ, κ], equally spaced in the segment's own arc
 //!   length s, both ends included.
 //! - y is up. All numbers are finite, and read back as the same doubles.
@@ -118,7 +119,8 @@ struct KnotEntry {
 #[derive(Serialize)]
 struct SegmentEntry {
     length: f64,
-    kappa: [f64; 4],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kappa: Option<[f64; 4]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     samples: Option<Vec<[f64; 5]>>,
 }

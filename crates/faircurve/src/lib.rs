@@ -47,7 +47,7 @@ pub use kurbo;
 pub use curve::Curve;
 pub use outline::{Contour, Join, Knot, Outline};
 pub use plan::InputError;
-pub use segment::{CurvePoint, PolynomialSpiral, Segment, Shape};
+pub use segment::{CurvePoint, PolynomialSpiral, Segment, Shape, UnitCurve};
 pub use spline::{
     Adaptation, Effort, Place, Relaxation, Solution, SolveReport, SolvedKnot, Spline, Stage,
     Status, solve, solve_with,

@@ -397,7 +397,7 @@ impl Plan {
                 (place.first_node + along) % n
             };
             for (i, segment) in solution.segments.iter().enumerate().take(count) {
-                let segment = if place.reversed { segment.reversed() } else { *segment };
+                let segment = if place.reversed { segment.reversed() } else { segment.clone() };
                 shapes[segment_of(i)] = Some(segment);
             }
             let input_place = |place: Place| match place {
@@ -464,8 +464,9 @@ impl Plan {
         (0..total)
             .map(|i| {
                 let (start, end) = ends(i);
-                let segment =
-                    placed[i].unwrap_or_else(|| Segment::line_with_direction(start, end, carried));
+                let segment = placed[i]
+                    .take()
+                    .unwrap_or_else(|| Segment::line_with_direction(start, end, carried));
                 carried = arriving(&segment);
                 segment
             })

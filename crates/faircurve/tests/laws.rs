@@ -222,7 +222,7 @@ proptest! {
             }
             let before = solved(&contour, spline);
             let segment = which % contour.segment_count();
-            let place = before.curve.segments()[segment];
+            let place = &before.curve.segments()[segment];
             if place.length() == 0.0 || !before.report.relaxed.is_empty() {
                 return;
             }

@@ -103,7 +103,7 @@ fn assert_parameters(name: &str, solution: &Solution, expected: &[[f64; 4]], unc
     let segments = solution.curve.segments();
     assert_eq!(segments.len(), expected.len());
     for (i, (segment, expected)) in segments.iter().zip(expected).enumerate() {
-        let ours = PolynomialSpiral::new(segment.kappa());
+        let ours = PolynomialSpiral::new(segment.kappa().unwrap());
         let size = 1.0 + expected.iter().fold(0.0, |size: f64, k| size.max(k.abs()));
         for j in 0..4 {
             let error = (ours.k[j] - expected[j]).abs();

@@ -26,7 +26,7 @@ pub(super) fn cubics(segment: &Segment, accuracy: f64) -> Vec<CubicBez> {
     const MOST_PIECES: f64 = 4096.0;
     let length = segment.length();
     let accuracy = if accuracy > FINEST * length { accuracy } else { FINEST * length };
-    let bend = wildness(segment.kappa());
+    let bend = wildness(parameters(segment));
     let mut count = (bend / MOST_BEND).ceil().clamp(1.0, MOST_PIECES);
     loop {
         let cut = |i: f64| {
@@ -48,6 +48,18 @@ pub(super) fn cubics(segment: &Segment, accuracy: f64) -> Vec<CubicBez> {
         count = if factor.is_finite() { (count * factor).ceil() } else { 2.0 * count }
             .clamp(count + 1.0, MOST_PIECES.min(4.0 * count));
     }
+}
+
+/// Curvature and its derivatives at the middle, for arc length 1: of a spiral, its parameters.
+fn parameters(piece: &Segment) -> [f64; 4] {
+    let length = piece.length();
+    let mut scale = 1.0;
+    piece.kappa().unwrap_or_else(|| {
+        piece.curvature_jet(length / 2.0).map(|derivative| {
+            scale *= length;
+            derivative * scale
+        })
+    })
 }
 
 /// Each piece starts exactly where the one before ends.
@@ -81,7 +93,7 @@ fn best_cubic(piece: &Segment) -> (CubicBez, f64) {
 /// Arm lengths of the cubics in sixth-order contact, moved to those with exact ends.
 fn contact_arms(piece: &Segment, t0: Vec2, t1: Vec2) -> Vec<[f64; 2]> {
     let h = piece.length();
-    let [k0, k1, k2, k3] = piece.kappa();
+    let [k0, k1, k2, k3] = parameters(piece);
     // All in units of the half length, in which the k of arc length 1 shrink by powers of 2.
     let (k0, k1, k2, k3) = (k0 / 2.0, k1 / 4.0, k2 / 8.0, k3 / 16.0);
     let a = k0 / 2.0;

@@ -2,16 +2,16 @@
 
 mod cubic_fit;
 
-use kurbo::BezPath;
+use kurbo::{BezPath, PathSeg};
 
 use crate::curve::Curve;
-use crate::segment::Segment;
+use crate::segment::{Segment, Shape};
 
 /// The curve as straight lines and cubic Béziers that deviate from it by at most `accuracy`, in user
 /// units.
 ///
-/// Knots are end points of Béziers, bit for bit; tangents there are those of the curve; straight
-/// segments are lines; segments that end where they start leave no trace; a closed curve ends on its start and
+/// Knots are end points of Béziers, bit for bit; tangents there are those of the curve; segments
+/// that are Béziers pass through untouched; straight segments are lines; segments that end where they start leave no trace; a closed curve ends on its start and
 /// closes its path. An empty curve is an empty path.
 ///
 /// The deviation is checked at 16 places of each Bézier with a margin, not proved. Accuracies below
@@ -49,7 +49,13 @@ fn append_segment(path: &mut BezPath, segment: &Segment, accuracy: f64) {
         }
         return;
     }
-    for cubic in cubic_fit::cubics(segment, accuracy) {
-        path.curve_to(cubic.p1, cubic.p2, cubic.p3);
+    if let Shape::Chain(members) = segment.shape() {
+        members.iter().for_each(|member| append_segment(path, member, accuracy));
+    } else if let Some(beziers) = segment.beziers() {
+        path.extend(beziers.iter().map(PathSeg::as_path_el));
+    } else {
+        for cubic in cubic_fit::cubics(segment, accuracy) {
+            path.curve_to(cubic.p1, cubic.p2, cubic.p3);
+        }
     }
 }

@@ -6,6 +6,7 @@ pub mod block_tridiagonal;
 pub mod fresnel;
 pub(crate) mod gauss_legendre;
 pub mod newton;
+pub(crate) mod quadrature;
 pub mod roots;
 pub mod spiro_integral;
 pub mod spiro_series;

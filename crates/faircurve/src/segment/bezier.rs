@@ -1,0 +1,73 @@
+//! Béziers as shapes of segments.
+
+use kurbo::{CubicBez, ParamCurve, PathSeg, Point};
+use num_complex::Complex64;
+
+use super::ParametricCurve;
+
+/// A line, quadratic or cubic Bézier from (0, 0) to (1, 0).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UnitBezier {
+    exact: PathSeg,
+    /// The same as a cubic, for evaluating.
+    cubic: [Complex64; 4],
+}
+
+impl UnitBezier {
+    /// From a Bézier that starts at (0, 0) and ends at (1, 0).
+    pub fn new(bezier: PathSeg) -> Self {
+        let CubicBez { p0, p1, p2, p3 } = bezier.to_cubic();
+        UnitBezier { exact: bezier, cubic: [p0, p1, p2, p3].map(complex) }
+    }
+
+    /// The cubic whose arms, along the end tangents, have these lengths; negative ones point
+    /// backwards. `start` and `end` are the directions of the tangents.
+    pub fn from_arms(start: f64, end: f64, arms: [f64; 2]) -> Self {
+        let p1 = Complex64::from_polar(1.0, start) * arms[0];
+        let p2 = 1.0 - Complex64::from_polar(1.0, end) * arms[1];
+        let cubic = CubicBez::new(Point::ORIGIN, point(p1), point(p2), Point::new(1.0, 0.0));
+        UnitBezier::new(PathSeg::Cubic(cubic))
+    }
+}
+
+pub(super) fn complex(p: Point) -> Complex64 {
+    Complex64::new(p.x, p.y)
+}
+
+pub(super) fn point(z: Complex64) -> Point {
+    Point::new(z.re, z.im)
+}
+
+impl ParametricCurve for UnitBezier {
+    fn point(&self, u: f64) -> Complex64 {
+        let [p0, p1, p2, p3] = self.cubic;
+        let v = 1.0 - u;
+        // Ends are exact: every other term is then 0.
+        p0 * (v * v * v) + p1 * (3.0 * v * v * u) + p2 * (3.0 * v * u * u) + p3 * (u * u * u)
+    }
+
+    fn velocity_series(&self, u: f64) -> [Complex64; 5] {
+        let [p0, p1, p2, p3] = self.cubic;
+        let [a, b, c] = [p1 - p0, p2 - p1, p3 - p2].map(|d| d * 3.0);
+        let v = 1.0 - u;
+        let (d0, d1) = (b - a, c - b);
+        [
+            a * (v * v) + b * (2.0 * v * u) + c * (u * u),
+            (d0 * v + d1 * u) * 2.0,
+            d1 - d0,
+            Complex64::ZERO,
+            Complex64::ZERO,
+        ]
+    }
+
+    fn velocity(&self, u: f64) -> Complex64 {
+        let [p0, p1, p2, p3] = self.cubic;
+        let v = 1.0 - u;
+        ((p1 - p0) * (v * v) + (p2 - p1) * (2.0 * v * u) + (p3 - p2) * (u * u)) * 3.0
+    }
+
+    fn bezier(&self, from: f64, to: f64) -> Option<PathSeg> {
+        let is_whole = from == 0.0 && to == 1.0;
+        Some(if is_whole { self.exact } else { self.exact.subsegment(from..to) })
+    }
+}

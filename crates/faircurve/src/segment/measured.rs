@@ -1,0 +1,243 @@
+//! A curve given by any parameter, measured by arc length.
+
+use std::fmt;
+
+use kurbo::PathSeg;
+use num_complex::Complex64;
+
+use super::UnitCurve;
+use crate::numeric::quadrature::{gauss_16, integrate};
+
+/// A curve from 0 to 1 in the complex plane by a parameter u from 0 to 1; smooth within.
+pub trait ParametricCurve: fmt::Debug + Send + Sync {
+    /// The point at `u`: exactly 0 and 1 at the ends.
+    fn point(&self, u: f64) -> Complex64;
+
+    /// Taylor coefficients of the velocity about `u`: v₀ + v₁t + … + v₄t⁴.
+    fn velocity_series(&self, u: f64) -> [Complex64; 5];
+
+    /// The velocity at `u`.
+    fn velocity(&self, u: f64) -> Complex64 {
+        self.velocity_series(u)[0]
+    }
+
+    /// The piece between two parameters as a Bézier, if it is one exactly.
+    fn bezier(&self, from: f64, to: f64) -> Option<PathSeg>;
+}
+
+/// A [`ParametricCurve`] with its arc length measured to about 1e-15.
+#[derive(Clone, Debug)]
+pub struct Measured<C> {
+    curve: C,
+    panels: Vec<Panel>,
+    length: f64,
+    breaks: Vec<f64>,
+}
+
+/// A stretch of the parameter along which the curve turns little, and sixteen nodes suffice. Its end
+/// is where the next one starts.
+#[derive(Clone, Copy, Debug)]
+struct Panel {
+    u: f64,
+    s: f64,
+    direction: f64,
+}
+
+/// Radians that a panel may turn.
+const MOST_TURN: f64 = 1.0;
+/// Arc lengths below this are none: a panel at a cusp ends there.
+const NEGLIGIBLE: f64 = 1e-17;
+/// Larger curvatures (at cusps) are written as this.
+const LARGEST: f64 = 1e100;
+
+impl<C: ParametricCurve> Measured<C> {
+    /// Measures a curve. Takes some 50 evaluations of the velocity where it is gentle.
+    pub fn new(curve: C) -> Self {
+        let mut measured = Measured { curve, panels: Vec::new(), length: 0.0, breaks: Vec::new() };
+        let whole = measured.arc(0.0, 1.0);
+        let start = tangent(&measured.curve, 0.0, true).arg();
+        let mut direction = start;
+        measured.measure(0.0, 1.0, whole, &mut direction, 50);
+        measured.length = measured.length.max(1.0);
+        measured.breaks = measured.panels.iter().skip(1).map(|panel| panel.s).collect();
+        measured
+    }
+
+    fn arc(&self, from: f64, to: f64) -> f64 {
+        gauss_16(&|u| self.curve.velocity(u).norm(), from, to)
+    }
+
+    /// Appends the panels from `u` to `to`.
+    fn measure(&mut self, u: f64, to: f64, whole: f64, direction: &mut f64, depth: usize) {
+        let middle = (u + to) / 2.0;
+        let (left, right) = (self.arc(u, middle), self.arc(middle, to));
+        let is_short = whole < NEGLIGIBLE;
+        let is_even = (left + right - whole).abs() <= 4.0 * f64::EPSILON * (1.0 + whole);
+        if depth == 0 || is_short || (is_even && self.turn(u, to) < MOST_TURN) {
+            self.panels.push(Panel { u, s: self.length, direction: *direction });
+            self.length += left + right;
+            let (a, b) = (tangent(&self.curve, u, true), tangent(&self.curve, to, false));
+            *direction += (b * a.conj()).arg();
+            // Through a cusp just at the joint.
+            let after = if to < 1.0 { tangent(&self.curve, to, true) } else { b };
+            *direction += (after * b.conj()).arg();
+            return;
+        }
+        self.measure(u, middle, left, direction, depth - 1);
+        self.measure(middle, to, right, direction, depth - 1);
+    }
+
+    /// The sum of what the curve turns between five places.
+    fn turn(&self, from: f64, to: f64) -> f64 {
+        let at = |i: f64| {
+            let u = from + (to - from) * i / 4.0;
+            tangent(&self.curve, u, i < 4.0)
+        };
+        (0..4).map(|i| (at(f64::from(i) + 1.0) * at(f64::from(i)).conj()).arg().abs()).sum()
+    }
+
+    fn panel_at(&self, key: impl Fn(&Panel) -> bool) -> usize {
+        self.panels.partition_point(key).max(1) - 1
+    }
+
+    fn panel_end(&self, index: usize) -> f64 {
+        self.panels.get(index + 1).map_or(1.0, |next| next.u)
+    }
+
+    /// The parameter at arc length `s`.
+    fn parameter(&self, s: f64) -> f64 {
+        /// Newton's method, and halving where it fails.
+        const MOST_STEPS: usize = 60;
+        if s <= 0.0 {
+            return 0.0;
+        } else if s >= self.length {
+            return 1.0;
+        }
+        let index = self.panel_at(|panel| panel.s <= s);
+        let (panel, end) = (self.panels[index], self.panel_end(index));
+        let wanted = s - panel.s;
+        let whole = self.panels.get(index + 1).map_or(self.length, |next| next.s) - panel.s;
+        let (mut low, mut high) = (panel.u, end);
+        let mut u = panel.u + (end - panel.u) * if whole > 0.0 { wanted / whole } else { 0.5 };
+        for _ in 0..MOST_STEPS {
+            let over = self.arc(panel.u, u) - wanted;
+            if over == 0.0 {
+                return u;
+            } else if over > 0.0 {
+                high = u;
+            } else {
+                low = u;
+            }
+            let step = over / self.curve.velocity(u).norm();
+            let next = if (low..=high).contains(&(u - step)) { u - step } else { (low + high) / 2.0 };
+            if (next - u).abs() <= f64::EPSILON * (end - panel.u) {
+                return next;
+            }
+            u = next;
+        }
+        u
+    }
+
+    /// The arc length at a parameter.
+    pub fn arc_length(&self, u: f64) -> f64 {
+        let u = u.clamp(0.0, 1.0);
+        let panel = self.panels[self.panel_at(|panel| panel.u <= u)];
+        (panel.s + self.arc(panel.u, u)).min(self.length)
+    }
+}
+
+/// The unit vector in the direction of travel just after (or before) a parameter.
+fn tangent(curve: &impl ParametricCurve, u: f64, after: bool) -> Complex64 {
+    let series = curve.velocity_series(u);
+    let Some(order) = series.iter().position(|v| v.norm_sqr() > 0.0) else {
+        return Complex64::ONE;
+    };
+    let leading = series[order] / series[order].norm();
+    // Before a place where it stands still, an odd power goes the other way.
+    if after || order % 2 == 0 { leading } else { -leading }
+}
+
+/// Curvature and three derivatives by arc length from the velocity's Taylor coefficients.
+///
+/// With v = σ·exp(iθ): v′/v = (log σ)′ + iθ′, so that κ = Im(v′/v)/σ, and d/ds = (1/σ) d/du.
+fn curvature_jet(v: [Complex64; 5]) -> [f64; 4] {
+    // The logarithmic derivative.
+    let inverse = v[0].inv();
+    let mut w = [Complex64::ZERO; 4];
+    for j in 0..4 {
+        let mut rest = v[j + 1] * (j + 1) as f64;
+        for i in 1..=j {
+            rest -= v[i] * w[j - i];
+        }
+        w[j] = rest * inverse;
+    }
+    // Speed: σ′ = σ·Re w.
+    let mut speed = [v[0].norm(), 0.0, 0.0, 0.0];
+    for j in 0..3 {
+        let sum: f64 = (0..=j).map(|i| speed[i] * w[j - i].re).sum();
+        speed[j + 1] = sum / (j + 1) as f64;
+    }
+    let over_speed = |f: [f64; 4]| {
+        let mut quotient = [0.0; 4];
+        for j in 0..4 {
+            let known: f64 = (1..=j).map(|i| speed[i] * quotient[j - i]).sum();
+            quotient[j] = (f[j] - known) / speed[0];
+        }
+        quotient
+    };
+    let mut series = over_speed(w.map(|w| w.im));
+    let mut jet = [0.0; 4];
+    for value in &mut jet {
+        *value = series[0];
+        series = over_speed([series[1], 2.0 * series[2], 3.0 * series[3], 0.0]);
+    }
+    jet.map(|value| if value.is_nan() { 0.0 } else { value.clamp(-LARGEST, LARGEST) })
+}
+
+impl<C: ParametricCurve> UnitCurve for Measured<C> {
+    fn length(&self) -> f64 {
+        self.length
+    }
+
+    fn point(&self, s: f64) -> Complex64 {
+        self.curve.point(self.parameter(s))
+    }
+
+    fn direction(&self, s: f64) -> f64 {
+        let u = self.parameter(s);
+        let panel = self.panels[self.panel_at(|panel| panel.s <= s)];
+        let start = tangent(&self.curve, panel.u, true);
+        let here = tangent(&self.curve, u, s < self.length);
+        panel.direction + (here * start.conj()).arg()
+    }
+
+    fn curvature_jet(&self, s: f64) -> [f64; 4] {
+        curvature_jet(self.curve.velocity_series(self.parameter(s)))
+    }
+
+    fn breaks(&self) -> &[f64] {
+        &self.breaks
+    }
+
+    fn largest_curvature(&self, _from: f64, _to: f64) -> f64 {
+        f64::MAX
+    }
+
+    fn bezier(&self, from: f64, to: f64) -> Option<PathSeg> {
+        self.curve.bezier(self.parameter(from), self.parameter(to))
+    }
+
+    fn integral(&self, from: f64, to: f64, f: &dyn Fn([f64; 4]) -> f64) -> f64 {
+        let integrand = |u: f64| {
+            let series = self.curve.velocity_series(u);
+            f(curvature_jet(series)) * series[0].norm()
+        };
+        let stops: Vec<f64> =
+            self.stops(from, to).into_iter().map(|s| self.parameter(s)).collect();
+        integrate(&integrand, &stops).min(f64::MAX)
+    }
+}
+
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,103 @@
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use kurbo::{CubicBez, ParamCurveArclen, PathSeg};
+
+use super::*;
+use crate::segment::UnitBezier;
+
+fn measured(p1: (f64, f64), p2: (f64, f64)) -> Measured<UnitBezier> {
+    let cubic = CubicBez::new((0.0, 0.0), p1, p2, (1.0, 0.0));
+    Measured::new(UnitBezier::new(PathSeg::Cubic(cubic)))
+}
+
+/// Gentle, an S, a loop, nearly a cusp, a cusp inside, cusps at the ends.
+fn samples() -> Vec<Measured<UnitBezier>> {
+    vec![
+        measured((0.3, 0.2), (0.7, 0.3)),
+        measured((0.3, 0.6), (0.7, -0.5)),
+        measured((1.6, 1.2), (-0.6, 1.2)),
+        measured((1.0 + 1e-6, 1.0), (0.0, 1.0)),
+        measured((1.0, 1.0), (0.0, 1.0)),
+        measured((0.0, 0.0), (0.5, 0.5)),
+        measured((0.2, 0.5), (1.0, 0.0)),
+        measured((-0.1, 0.1), (1.1, 0.3)),
+    ]
+}
+
+#[test]
+fn lengths_are_those_of_another_program() {
+    for curve in samples() {
+        let Some(PathSeg::Cubic(cubic)) = curve.bezier(0.0, curve.length()) else {
+            panic!("a cubic is a Bézier");
+        };
+        assert!((curve.length() - cubic.arclen(1e-12)).abs() < 1e-10, "{curve:?}");
+    }
+}
+
+#[test]
+fn arc_length_and_parameter_are_inverse() {
+    for curve in samples() {
+        for i in 0..=200 {
+            let u = f64::from(i) / 200.0;
+            let s = curve.arc_length(u);
+            let back = curve.arc_length(curve.parameter(s));
+            assert!((back - s).abs() < 1e-14, "{u}: {s} {back}");
+        }
+    }
+}
+
+#[test]
+fn direction_is_continuous_and_belongs_to_the_points() {
+    for (which, curve) in samples().into_iter().enumerate() {
+        let (n, h) = (2000, 1e-6);
+        let mut last = curve.direction(0.0);
+        for i in 1..n {
+            let s = curve.length() * f64::from(i) / f64::from(n);
+            let step = curve.point(s + h) - curve.point(s - h);
+            let direction = curve.direction(s);
+            // Within a step of the cusp or the sharp bend (samples 3 and 4) all may happen.
+            if (step.norm() / (2.0 * h) - 1.0).abs() < 1e-5 {
+                assert!((step.arg() - direction).sin().abs() < 2e-3, "{which} {s}");
+                assert!((step.arg() - direction).cos() > 0.0, "{which} {s}");
+            }
+            let turn = (direction - last).abs();
+            let at_cusp = matches!(which, 3 | 4) && (s / curve.length() - 0.5).abs() < 5e-3;
+            assert!(turn < 0.1 || (at_cusp && (turn - PI).abs() < 0.6), "{which} {s}: {turn}");
+            last = direction;
+        }
+    }
+}
+
+#[test]
+fn curvature_and_derivatives_agree_with_differences() {
+    for curve in samples().iter().take(3) {
+        let h = 1e-5;
+        for i in 1..40 {
+            let s = curve.length() * f64::from(i) / 40.0;
+            let jet = curve.curvature_jet(s);
+            let slope = (curve.direction(s + h) - curve.direction(s - h)) / (2.0 * h);
+            assert!((slope - jet[0]).abs() < 1e-6 * (1.0 + jet[0].abs()), "{s}");
+            let (after, before) = (curve.curvature_jet(s + h), curve.curvature_jet(s - h));
+            for order in 0..3 {
+                let slope = (after[order] - before[order]) / (2.0 * h);
+                let exact = jet[order + 1];
+                assert!((slope - exact).abs() < 1e-5 * (1.0 + exact.abs()), "{s} {order}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_cusp_is_finite() {
+    for curve in samples() {
+        for s in [0.0, curve.length() / 2.0, curve.length()] {
+            assert!(curve.curvature_jet(s).iter().all(|k| k.is_finite()));
+            assert!(curve.direction(s).is_finite());
+        }
+        let energy = curve.integral(0.0, curve.length(), &|jet| jet[0] * jet[0]);
+        assert!(energy.is_finite() && energy > 0.0);
+    }
+    // The velocity of the last but two is 0 at its start, and it leaves toward its other arm.
+    let leaving = samples()[5].direction(0.0);
+    assert!((leaving - FRAC_PI_2 / 2.0).abs() < 1e-15);
+}

@@ -1,0 +1,833 @@
+//! One piece of a curve: its shape and where it lies.
+
+mod bezier;
+mod measured;
+mod spiral;
+mod unit_curve;
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
+
+use kurbo::{Affine, ParamCurve, PathSeg, Point, Rect, Shape as _, Vec2};
+use num_complex::Complex64;
+
+use crate::frame::{direction, turning, wrap_angle};
+use crate::numeric::roots::{monotone_root, roots_between};
+use crate::numeric::spiro_integral::{
+    angle, curvature_jet, spiro_integral_between,
+};
+
+pub use bezier::UnitBezier;
+pub use measured::{Measured, ParametricCurve};
+pub use spiral::{PolynomialSpiral, SpiralChord};
+pub use unit_curve::UnitCurve;
+
+/// What shape a segment has. Grows with the families; match with a wildcard.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Shape {
+    /// A straight line; exact.
+    Line,
+    /// A polynomial spiral.
+    Spiral(PolynomialSpiral),
+    /// Another curve: a Bézier, a piece of a generating curve, a blend.
+    Unit(UnitPiece),
+    /// Several segments end to end, such as two arcs: at the joints curvature may jump.
+    Chain(Arc<[Segment]>),
+}
+
+/// A piece of a [`UnitCurve`], travelled forwards or backwards.
+#[derive(Clone, Debug)]
+pub struct UnitPiece {
+    curve: Arc<dyn UnitCurve>,
+    from: f64,
+    to: f64,
+    backwards: bool,
+}
+
+impl PartialEq for UnitPiece {
+    /// Whether they are the same piece of the same curve, not of an equal one.
+    fn eq(&self, other: &Self) -> bool {
+        let range = |piece: &UnitPiece| (piece.from, piece.to, piece.backwards);
+        Arc::ptr_eq(&self.curve, &other.curve) && range(self) == range(other)
+    }
+}
+
+impl UnitPiece {
+    fn length(&self) -> f64 {
+        self.to - self.from
+    }
+
+    /// The curve's arc length for one of the piece's.
+    fn place(&self, s: f64) -> f64 {
+        let s = if self.backwards { self.to - s } else { self.from + s };
+        s.clamp(self.from, self.to)
+    }
+}
+
+/// A shape placed between two points. Arc length runs from 0 at `start` to [`length`](Self::length).
+///
+/// Ends are exact: the curve passes through `start` and `end` to the bit. Points between are
+/// accurate to about 1e-15 of the arc length plus rounding of the coordinates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Segment {
+    start: Point,
+    end: Point,
+    shape: Shape,
+    length: f64,
+    /// Direction of the shape's own x axis: for a spiral, that of the middle of the arc; for a unit
+    /// curve, that of the whole curve's chord; for a line, everywhere.
+    heading: f64,
+}
+
+/// Point, direction and curvature somewhere on a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurvePoint {
+    /// The point, in user units.
+    pub point: Point,
+    /// Direction of travel in radians, not wrapped.
+    pub direction: f64,
+    /// Curvature in 1/units, counterclockwise positive.
+    pub curvature: f64,
+}
+
+impl Segment {
+    /// The straight line. For a zero chord the direction is 0; see
+    /// [`line_with_direction`](Self::line_with_direction).
+    pub fn line(start: Point, end: Point) -> Self {
+        let chord = end - start;
+        let direction = if chord == Vec2::ZERO { 0.0 } else { direction(chord) };
+        Segment::line_with_direction(start, end, direction)
+    }
+
+    /// A straight line that remembers a direction of its own: for a segment of length 0, which has
+    /// none.
+    pub fn line_with_direction(start: Point, end: Point, direction: f64) -> Self {
+        let length = (end - start).hypot();
+        Segment { start, end, shape: Shape::Line, length, heading: direction }
+    }
+
+    /// A spiral scaled and turned so that its chord is that from `start` to `end`.
+    ///
+    /// A spiral that ends where it began can't be placed on a chord: where its chord is below
+    /// 1e-9 of its arc, and where the chord or a parameter isn't finite, the straight line stands
+    /// in.
+    pub fn spiral(start: Point, end: Point, spiral: PolynomialSpiral) -> Self {
+        /// Shorter chords would be mostly rounding error.
+        const SHORTEST_CHORD: f64 = 1e-9;
+        let chord = end - start;
+        let local = spiral.chord();
+        if chord == Vec2::ZERO || !(local.length > SHORTEST_CHORD) {
+            return Segment::line(start, end);
+        }
+        let length = chord.hypot() / local.length;
+        let heading = direction(chord) - local.direction;
+        Segment { start, end, shape: Shape::Spiral(spiral), length, heading }
+    }
+
+    /// A unit curve scaled and turned so that its chord is that from `start` to `end`; the straight
+    /// line if they coincide.
+    pub fn unit_curve(start: Point, end: Point, curve: Arc<dyn UnitCurve>) -> Self {
+        let chord = end - start;
+        if chord == Vec2::ZERO {
+            return Segment::line(start, end);
+        }
+        let length = chord.hypot() * curve.length();
+        let to = curve.length();
+        let piece = UnitPiece { curve, from: 0.0, to, backwards: false };
+        Segment { start, end, shape: Shape::Unit(piece), length, heading: direction(chord) }
+    }
+
+    /// A Bézier, exactly; a straight line if it is one or ends where it starts.
+    pub fn bezier(bezier: PathSeg) -> Self {
+        let (start, end) = (bezier.start(), bezier.end());
+        let chord = end - start;
+        if matches!(bezier, PathSeg::Line(_)) || chord == Vec2::ZERO {
+            return Segment::line(start, end);
+        }
+        // Division by the chord, as complex numbers: onto the unit chord.
+        let onto = chord / chord.hypot2();
+        let unit = |p: Point| Point::new((p - start).dot(onto), onto.cross(p - start));
+        let unit = match bezier {
+            PathSeg::Line(line) => PathSeg::Line(line),
+            PathSeg::Quad(q) => {
+                PathSeg::Quad(kurbo::QuadBez::new(Point::ORIGIN, unit(q.p1), Point::new(1.0, 0.0)))
+            }
+            PathSeg::Cubic(c) => {
+                let (p1, p2) = (unit(c.p1), unit(c.p2));
+                PathSeg::Cubic(kurbo::CubicBez::new(Point::ORIGIN, p1, p2, Point::new(1.0, 0.0)))
+            }
+        };
+        Segment::unit_curve(start, end, Arc::new(Measured::new(UnitBezier::new(unit))))
+    }
+
+    /// Segments end to end as one; each must start where the one before ends.
+    ///
+    /// # Panics
+    /// If there is none.
+    pub fn chain(members: impl IntoIterator<Item = Segment>) -> Self {
+        let mut members: Vec<Segment> = members.into_iter().collect();
+        for i in 1..members.len() {
+            // Direction is continuous through the joints, not only up to whole turns.
+            let arriving = members[i - 1].direction(members[i - 1].length);
+            let off = members[i].direction(0.0) - arriving;
+            members[i].heading += wrap_angle(off) - off;
+        }
+        if members.len() == 1 {
+            return members.remove(0);
+        }
+        Segment {
+            start: members[0].start,
+            end: members[members.len() - 1].end,
+            length: members.iter().map(Segment::length).sum(),
+            heading: 0.0,
+            shape: Shape::Chain(members.into()),
+        }
+    }
+
+    /// Where it starts.
+    pub fn start(&self) -> Point {
+        self.start
+    }
+
+    /// Where it ends.
+    pub fn end(&self) -> Point {
+        self.end
+    }
+
+    /// Its shape.
+    pub fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// k₀ … k₃ of eq. 8.1 for a polynomial spiral, zeros for a line; `None` for other shapes.
+    pub fn kappa(&self) -> Option<[f64; 4]> {
+        match &self.shape {
+            Shape::Line => Some([0.0; 4]),
+            Shape::Spiral(spiral) => Some(spiral.k),
+            Shape::Unit(_) | Shape::Chain(_) => None,
+        }
+    }
+
+    /// The segment as Béziers, if it is made of them; otherwise they must be
+    /// [fitted](crate::convert).
+    pub fn beziers(&self) -> Option<Vec<PathSeg>> {
+        match &self.shape {
+            Shape::Line => Some(vec![PathSeg::Line(kurbo::Line::new(self.start, self.end))]),
+            Shape::Spiral(_) => None,
+            Shape::Unit(piece) => {
+                let unit = piece.curve.bezier(piece.from, piece.to)?;
+                let scale = self.scale(piece);
+                let unit = if piece.backwards { unit.reverse() } else { unit };
+                let map = Affine::translate(self.start.to_vec2())
+                    * Affine::rotate(self.heading)
+                    * Affine::scale(scale)
+                    * Affine::translate(-unit.start().to_vec2());
+                Some(vec![with_ends(map * unit, self.start, self.end)])
+            }
+            Shape::Chain(members) => {
+                let beziers: Option<Vec<_>> = members.iter().map(Segment::beziers).collect();
+                Some(beziers?.concat())
+            }
+        }
+    }
+
+    /// Whether it is a straight line.
+    pub fn is_line(&self) -> bool {
+        matches!(self.shape, Shape::Line)
+    }
+
+    /// Arc length.
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// Straight distance from start to end.
+    pub fn chord_length(&self) -> f64 {
+        (self.end - self.start).hypot()
+    }
+
+    /// Direction of travel at arc length `s`, in radians, continuous along the segment except at
+    /// cusps, where it jumps by half a turn.
+    pub fn direction(&self, s: f64) -> f64 {
+        match &self.shape {
+            Shape::Line => self.heading,
+            Shape::Spiral(spiral) => self.heading + angle(spiral.k, self.local(s)),
+            Shape::Unit(piece) => {
+                let turned = if piece.backwards { PI } else { 0.0 };
+                let place = piece.place(s / self.scale(piece));
+                self.heading + piece.curve.direction(place) + turned
+            }
+            Shape::Chain(members) => {
+                let (member, s) = self.member(members, s);
+                member.direction(s)
+            }
+        }
+    }
+
+    /// Curvature at arc length `s`, in 1/units.
+    pub fn curvature(&self, s: f64) -> f64 {
+        self.curvature_jet(s)[0]
+    }
+
+    /// Curvature at arc length `s` and its first three derivatives by arc length, the j-th in
+    /// units⁻ʲ⁻¹ (eq. 8.6). Zeros on a line; huge but finite at a cusp.
+    pub fn curvature_jet(&self, s: f64) -> [f64; 4] {
+        let (mut jet, unit, flips) = match &self.shape {
+            Shape::Line => return [0.0; 4],
+            Shape::Spiral(spiral) => (curvature_jet(spiral.k, self.local(s)), self.length, false),
+            Shape::Unit(piece) => {
+                let scale = self.scale(piece);
+                let jet = piece.curve.curvature_jet(piece.place(s / scale));
+                (jet, scale, piece.backwards)
+            }
+            Shape::Chain(members) => {
+                let (member, s) = self.member(members, s);
+                return member.curvature_jet(s);
+            }
+        };
+        let mut scale = 1.0;
+        for (order, derivative) in jet.iter_mut().enumerate() {
+            scale /= unit;
+            *derivative = (*derivative * scale).clamp(f64::MIN, f64::MAX);
+            if flips && order % 2 == 0 {
+                *derivative = -*derivative;
+            }
+        }
+        jet
+    }
+
+    /// Point at arc length `s`, clamped to the segment.
+    pub fn point(&self, s: f64) -> Point {
+        let s = s.clamp(0.0, self.length);
+        if s == 0.0 {
+            return self.start;
+        } else if s == self.length {
+            return self.end;
+        }
+        match &self.shape {
+            Shape::Line => self.start.lerp(self.end, s / self.length),
+            // From the nearer end, so that ends are met and errors stay small.
+            Shape::Spiral(spiral) => {
+                let local = self.local(s);
+                if local < 0.0 {
+                    let along = spiro_integral_between(spiral.k, -0.5, local);
+                    self.start + self.turned(along * self.length)
+                } else {
+                    let along = spiro_integral_between(spiral.k, local, 0.5);
+                    self.end - self.turned(along * self.length)
+                }
+            }
+            Shape::Unit(piece) => {
+                let scale = self.scale(piece);
+                let at = |s: f64| piece.curve.point(piece.place(s));
+                let (here, end) = (at(s / scale), piece.length());
+                if 2.0 * s < self.length {
+                    self.start + self.turned((here - at(0.0)) * scale)
+                } else {
+                    self.end + self.turned((here - at(end)) * scale)
+                }
+            }
+            Shape::Chain(members) => {
+                let (member, s) = self.member(members, s);
+                member.point(s)
+            }
+        }
+    }
+
+    /// Point, direction and curvature at arc length `s`, clamped to the segment.
+    pub fn at(&self, s: f64) -> CurvePoint {
+        let s = s.clamp(0.0, self.length);
+        CurvePoint {
+            point: self.point(s),
+            direction: self.direction(s),
+            curvature: self.curvature(s),
+        }
+    }
+
+    /// The piece between arc lengths `from` and `to`, clamped to the segment (eq. 8.3).
+    pub fn subsegment(&self, from: f64, to: f64) -> Segment {
+        let (from, to) = (from.clamp(0.0, self.length), to.clamp(0.0, self.length));
+        let (start, end) = (self.point(from), self.point(to));
+        let length = to - from;
+        match &self.shape {
+            Shape::Line => Segment::line_with_direction(start, end, self.heading),
+            Shape::Spiral(spiral) => {
+                let shape = Shape::Spiral(spiral.piece(self.local(from), self.local(to)));
+                let heading = self.direction((from + to) / 2.0);
+                Segment { start, end, shape, length, heading }
+            }
+            Shape::Unit(piece) => {
+                let scale = self.scale(piece);
+                let (a, b) = (piece.place(from / scale), piece.place(to / scale));
+                let piece = UnitPiece { from: a.min(b), to: a.max(b), ..piece.clone() };
+                Segment { start, end, shape: Shape::Unit(piece), length, heading: self.heading }
+            }
+            Shape::Chain(members) => {
+                let mut before = 0.0;
+                let mut pieces = Vec::new();
+                for member in members.iter() {
+                    let after = before + member.length;
+                    if after > from && before < to {
+                        pieces.push(member.subsegment(from - before, to - before));
+                    }
+                    before = after;
+                }
+                if pieces.is_empty() {
+                    let (member, s) = self.member(members, from);
+                    return member.subsegment(s, s);
+                }
+                Segment::chain(pieces)
+            }
+        }
+    }
+
+    /// The same segment travelled the other way.
+    pub fn reversed(&self) -> Segment {
+        let (start, end, length) = (self.end, self.start, self.length);
+        let (shape, heading) = match &self.shape {
+            Shape::Line => (Shape::Line, self.heading + PI),
+            // θ(s) → θ(−s) + π: odd orders of curvature keep their sign, even ones lose it.
+            Shape::Spiral(spiral) => {
+                let [k0, k1, k2, k3] = spiral.k;
+                let shape = Shape::Spiral(PolynomialSpiral::new([-k0, k1, -k2, k3]));
+                (shape, self.heading + PI)
+            }
+            Shape::Unit(piece) => {
+                let piece = UnitPiece { backwards: !piece.backwards, ..piece.clone() };
+                (Shape::Unit(piece), self.heading)
+            }
+            Shape::Chain(members) => {
+                return Segment::chain(members.iter().rev().map(Segment::reversed));
+            }
+        };
+        Segment { start, end, shape, length, heading }
+    }
+
+    /// The same segment scaled and turned onto another chord, which must not be zero: what undoing
+    /// a scale by a power of two does, or giving a merged knot its own place.
+    pub(crate) fn moved_to(&self, start: Point, end: Point) -> Segment {
+        let (from, to) = (self.end - self.start, end - start);
+        let shape = match &self.shape {
+            Shape::Line => return Segment::line(start, end),
+            Shape::Spiral(_) | Shape::Unit(_) => self.shape.clone(),
+            Shape::Chain(members) => {
+                // Multiplication by the ratio of the chords, as complex numbers.
+                let ratio = Vec2::new(from.dot(to), from.cross(to)) / from.hypot2();
+                let moved = |p: Point| {
+                    let v = p - self.start;
+                    start + Vec2::new(v.x * ratio.x - v.y * ratio.y, v.x * ratio.y + v.y * ratio.x)
+                };
+                let last = members.len() - 1;
+                let mut next = start;
+                return Segment::chain(members.iter().enumerate().map(|(i, member)| {
+                    let from = next;
+                    next = if i == last { end } else { moved(member.end) };
+                    member.moved_to(from, next)
+                }));
+            }
+        };
+        let length = self.length * (to.hypot() / from.hypot());
+        // Exactly 0 where the chord has only been scaled.
+        let heading = self.heading + turning(from, to);
+        Segment { start, end, shape, length, heading }
+    }
+
+    /// Arc lengths at which curvature is zero (inflections), ascending; none on a line. On shapes
+    /// other than lines and spirals they are found by a change of sign between 16 places in each
+    /// smooth stretch, so that two that are close together may be missed.
+    pub fn inflections(&self) -> Vec<f64> {
+        match &self.shape {
+            Shape::Line => Vec::new(),
+            Shape::Spiral(PolynomialSpiral { k }) => self.places_from_local(&roots_between(
+                &[k[0], k[1], k[2] / 2.0, k[3] / 6.0],
+                -0.5,
+                0.5,
+            )),
+            Shape::Unit(piece) => self.sign_changes(piece, |s| self.curvature(s)),
+            Shape::Chain(members) => places_in(members, Segment::inflections),
+        }
+    }
+
+    /// Arc lengths inside the segment at which |curvature| has an extremum or κ′ = 0, ascending;
+    /// with the limits of [`inflections`](Self::inflections).
+    pub fn curvature_extrema(&self) -> Vec<f64> {
+        match &self.shape {
+            Shape::Line => Vec::new(),
+            Shape::Spiral(PolynomialSpiral { k }) => {
+                self.places_from_local(&roots_between(&[k[1], k[2], k[3] / 2.0], -0.5, 0.5))
+            }
+            Shape::Unit(piece) => self.sign_changes(piece, |s| self.curvature_jet(s)[1]),
+            Shape::Chain(members) => places_in(members, Segment::curvature_extrema),
+        }
+    }
+
+    /// Arc lengths at which the tangent is horizontal or vertical, ascending; none on a line; with
+    /// the limits of [`inflections`](Self::inflections).
+    pub fn axis_extrema(&self) -> Vec<f64> {
+        match &self.shape {
+            Shape::Line => Vec::new(),
+            Shape::Spiral(spiral) => self.axis_extrema_of_spiral(*spiral),
+            Shape::Unit(piece) => {
+                let direction = |s: f64| self.direction(s);
+                self.sign_changes(piece, |s| (2.0 * direction(s)).sin())
+            }
+            Shape::Chain(members) => places_in(members, Segment::axis_extrema),
+        }
+    }
+
+    fn axis_extrema_of_spiral(&self, spiral: PolynomialSpiral) -> Vec<f64> {
+        let k = spiral.k;
+        let direction = |s: f64| self.heading + angle(k, s);
+        let mut places = Vec::new();
+        let mut breaks = vec![-0.5];
+        breaks.extend(roots_between(&[k[0], k[1], k[2] / 2.0, k[3] / 6.0], -0.5, 0.5));
+        breaks.push(0.5);
+        for pair in breaks.windows(2) {
+            // Direction is monotone here; visit each quarter turn that it passes.
+            let (a, b) = (direction(pair[0]), direction(pair[1]));
+            let quarter =
+                |n: f64| monotone_root(|s| direction(s) - n * FRAC_PI_2, pair[0], pair[1]);
+            let (low, high) = (a.min(b) / FRAC_PI_2, a.max(b) / FRAC_PI_2);
+            let mut quarters: Vec<f64> = Vec::new();
+            let mut n = low.ceil();
+            while n <= high {
+                quarters.extend(quarter(n));
+                n += 1.0;
+            }
+            if a > b {
+                quarters.reverse();
+            }
+            places.extend(quarters);
+        }
+        places.dedup();
+        self.places_from_local(&places)
+    }
+
+    /// The smallest box that holds the segment, to rounding.
+    pub fn bounding_box(&self) -> Rect {
+        let mut bounds = Rect::from_points(self.start, self.end);
+        if let Some(beziers) = self.beziers() {
+            return beziers.iter().fold(bounds, |bounds, b| bounds.union(b.bounding_box()));
+        }
+        for s in self.axis_extrema() {
+            bounds = bounds.union_pt(self.point(s));
+        }
+        bounds
+    }
+
+    /// The arc length of the point nearest to `target` and its distance, which exceeds the true
+    /// distance by at most `accuracy` (in user units; values below 1e-12 of the arc length count as
+    /// that).
+    pub fn nearest(&self, target: Point, accuracy: f64) -> (f64, f64) {
+        let accuracy = accuracy.max(1e-12 * self.length).max(f64::MIN_POSITIVE);
+        let distance = |s: f64| (self.point(s) - target).hypot();
+        let mut best = [0.0, self.length, self.length / 2.0]
+            .map(|s| (s, distance(s)))
+            .into_iter()
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .unwrap_or((0.0, 0.0));
+        // Branch and bound: an arc of length h over a chord of length d lies within the ellipse
+        // around the chord's ends, ½√(h² − d²) to the side, and, where |κ| ≤ K, within K·h²/8.
+        let mut stack = vec![(0.0, self.length, self.start, self.end)];
+        while let Some((from, to, start, end)) = stack.pop() {
+            let h = to - from;
+            let d = (end - start).hypot().min(h);
+            let in_ellipse = ((h - d) * (h + d) + 4.0 * f64::EPSILON * h * h).sqrt() / 2.0;
+            let sagitta = (self.largest_curvature(from, to) * h * h / 8.0).min(in_ellipse);
+            let (along, to_chord) = nearest_on_chord(target, start, end);
+            // The foot on the chord is the guess for the arc.
+            let guess = from + along * h;
+            let candidate = distance(guess);
+            if candidate < best.1 {
+                best = (guess, candidate);
+            }
+            if to_chord - sagitta < best.1 - accuracy && sagitta > 0.25 * accuracy {
+                let middle = from + h / 2.0;
+                let point = self.point(middle);
+                stack.push((from, middle, start, point));
+                stack.push((middle, to, point, end));
+            }
+        }
+        best
+    }
+
+    /// ∫ κ² ds, in 1/units: exact for spirals, where the integrand is a polynomial, to about 1e-13
+    /// for others. It is infinite where the curve has a cusp; some large number stands for that.
+    pub fn bending_energy(&self) -> f64 {
+        match &self.shape {
+            Shape::Line => 0.0,
+            Shape::Spiral(PolynomialSpiral { k }) => {
+                mean_square(&[k[0], k[1], k[2] / 2.0, k[3] / 6.0]) / self.length
+            }
+            Shape::Unit(piece) => {
+                let unit = piece.curve.integral(piece.from, piece.to, &|jet| jet[0] * jet[0]);
+                (unit / self.scale(piece)).min(f64::MAX)
+            }
+            Shape::Chain(members) => members.iter().map(Segment::bending_energy).sum(),
+        }
+    }
+
+    /// ∫ κ′² ds, in 1/units³ (jumps at joints of a chain are not counted), with the accuracy of
+    /// [`bending_energy`](Self::bending_energy).
+    pub fn variation_energy(&self) -> f64 {
+        match &self.shape {
+            Shape::Line => 0.0,
+            Shape::Spiral(PolynomialSpiral { k }) => {
+                mean_square(&[k[1], k[2], k[3] / 2.0]) / self.length.powi(3)
+            }
+            Shape::Unit(piece) => {
+                let unit = piece.curve.integral(piece.from, piece.to, &|jet| jet[1] * jet[1]);
+                (unit / self.scale(piece).powi(3)).min(f64::MAX)
+            }
+            Shape::Chain(members) => members.iter().map(Segment::variation_energy).sum(),
+        }
+    }
+
+    /// An upper bound of |κ| between two arc lengths; [`f64::MAX`] where none is known.
+    pub fn largest_curvature(&self, from: f64, to: f64) -> f64 {
+        if self.length == 0.0 {
+            return 0.0;
+        }
+        match &self.shape {
+            Shape::Line => 0.0,
+            Shape::Spiral(spiral) => {
+                let (a, b) = (self.local(from), self.local(to));
+                let jet = curvature_jet(spiral.k, (a + b) / 2.0);
+                let half = (b - a) / 2.0;
+                let bound = jet[0].abs()
+                    + half
+                        * (jet[1].abs() + half * (jet[2].abs() / 2.0 + half * jet[3].abs() / 6.0));
+                bound / self.length
+            }
+            Shape::Unit(piece) => {
+                let scale = self.scale(piece);
+                let (a, b) = (piece.place(from / scale), piece.place(to / scale));
+                (piece.curve.largest_curvature(a.min(b), a.max(b)) / scale).min(f64::MAX)
+            }
+            Shape::Chain(members) => {
+                let mut before = 0.0;
+                let mut largest = 0.0f64;
+                for member in members.iter() {
+                    let after = before + member.length;
+                    if after >= from && before <= to {
+                        let (a, b) = ((from - before).max(0.0), (to - before).min(member.length));
+                        largest = largest.max(member.largest_curvature(a, b));
+                    }
+                    before = after;
+                }
+                largest
+            }
+        }
+    }
+
+    /// s ∈ [−½, ½] for an arc length.
+    fn local(&self, s: f64) -> f64 {
+        if self.length == 0.0 { 0.0 } else { s / self.length - 0.5 }
+    }
+
+    fn places_from_local(&self, local: &[f64]) -> Vec<f64> {
+        local.iter().map(|s| ((s + 0.5) * self.length).clamp(0.0, self.length)).collect()
+    }
+
+    /// Units per unit of the unit curve. 1 for a piece of length 0.
+    fn scale(&self, piece: &UnitPiece) -> f64 {
+        let scale = self.length / piece.length();
+        if scale > 0.0 && scale.is_finite() { scale } else { 1.0 }
+    }
+
+    /// A vector of the shape's own frame, turned into place.
+    fn turned(&self, local: Complex64) -> Vec2 {
+        let turned = local * Complex64::from_polar(1.0, self.heading);
+        Vec2::new(turned.re, turned.im)
+    }
+
+    /// The member of a chain at arc length `s`, and the arc length within it. Where two meet, the
+    /// later one.
+    fn member<'a>(&self, members: &'a [Segment], s: f64) -> (&'a Segment, f64) {
+        let mut rest = s;
+        for member in &members[..members.len() - 1] {
+            if rest < member.length {
+                return (member, rest);
+            }
+            rest -= member.length;
+        }
+        (&members[members.len() - 1], rest)
+    }
+
+    /// Arc lengths at which `f` changes its sign, found between 16 places in each smooth stretch.
+    fn sign_changes(&self, piece: &UnitPiece, f: impl Fn(f64) -> f64) -> Vec<f64> {
+        const PLACES: usize = 16;
+        let scale = self.scale(piece);
+        let mut stops: Vec<f64> = piece
+            .curve
+            .stops(piece.from, piece.to)
+            .into_iter()
+            .map(|s| if piece.backwards { piece.to - s } else { s - piece.from } * scale)
+            .collect();
+        stops.sort_by(f64::total_cmp);
+        let mut places = Vec::new();
+        for ends in stops.windows(2) {
+            // Just inside, since at a joint or a cusp the function is that of the other side.
+            let inside = |i: usize| {
+                let along = (i as f64 / PLACES as f64).clamp(1e-9, 1.0 - 1e-9);
+                ends[0] + (ends[1] - ends[0]) * along
+            };
+            for i in 0..PLACES {
+                let (from, to) = (inside(i), inside(i + 1));
+                if f(from) * f(to) < 0.0 {
+                    places.extend(monotone_root(&f, from, to));
+                }
+            }
+        }
+        places
+    }
+}
+
+/// What `find` finds in each member of a chain, as arc lengths of the chain.
+fn places_in(members: &[Segment], find: impl Fn(&Segment) -> Vec<f64>) -> Vec<f64> {
+    let mut before = 0.0;
+    let mut places = Vec::new();
+    for member in members {
+        places.extend(find(member).into_iter().map(|s| before + s));
+        before += member.length;
+    }
+    places
+}
+
+/// The same Bézier with exact ends.
+fn with_ends(bezier: PathSeg, start: Point, end: Point) -> PathSeg {
+    match bezier {
+        PathSeg::Line(_) => PathSeg::Line(kurbo::Line::new(start, end)),
+        PathSeg::Quad(q) => PathSeg::Quad(kurbo::QuadBez::new(start, q.p1, end)),
+        PathSeg::Cubic(c) => PathSeg::Cubic(kurbo::CubicBez::new(start, c.p1, c.p2, end)),
+    }
+}
+
+/// The fraction along the chord nearest to `target`, and its distance.
+fn nearest_on_chord(target: Point, start: Point, end: Point) -> (f64, f64) {
+    let chord = end - start;
+    let squared = chord.hypot2();
+    let along =
+        if squared > 0.0 { ((target - start).dot(chord) / squared).clamp(0.0, 1.0) } else { 0.5 };
+    (along, (start + chord * along - target).hypot())
+}
+
+/// ∫ p(s)² ds over [−½, ½] for p = Σ cᵢ sⁱ.
+fn mean_square(coefficients: &[f64]) -> f64 {
+    let mut sum = 0.0;
+    for (i, a) in coefficients.iter().enumerate() {
+        for (j, b) in coefficients.iter().enumerate() {
+            if (i + j) % 2 == 0 {
+                sum += a * b * 0.5f64.powi((i + j) as i32) / (i + j + 1) as f64;
+            }
+        }
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample() -> Segment {
+        let spiral = PolynomialSpiral::new([1.2, -3.0, 9.0, 40.0]);
+        Segment::spiral(Point::new(3.0, -2.0), Point::new(40.0, 25.0), spiral)
+    }
+
+    #[test]
+    fn point_direction_and_curvature_belong_together() {
+        let segment = sample();
+        let h = 1e-4 * segment.length();
+        for i in 1..50 {
+            let s = segment.length() * f64::from(i) / 50.0;
+            let tangent = (segment.point(s + h) - segment.point(s - h)) / (2.0 * h);
+            assert!((tangent - Vec2::from_angle(segment.direction(s))).hypot() < 1e-6);
+            let turn = (segment.direction(s + h) - segment.direction(s - h)) / (2.0 * h);
+            assert!((turn - segment.curvature(s)).abs() < 1e-6);
+            let slope = (segment.curvature(s + h) - segment.curvature(s - h)) / (2.0 * h);
+            assert!((slope - segment.curvature_jet(s)[1]).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn ends_are_exact_and_both_halves_meet() {
+        let segment = sample();
+        assert_eq!(segment.point(0.0), segment.start());
+        assert_eq!(segment.point(segment.length()), segment.end());
+        let middle = segment.length() / 2.0;
+        let gap = segment.point(middle * (1.0 - 1e-15)) - segment.point(middle);
+        assert!(gap.hypot() < 1e-13 * segment.length());
+    }
+
+    #[test]
+    fn a_piece_lies_on_the_whole() {
+        let segment = sample();
+        let piece = segment.subsegment(7.0, 31.0);
+        for i in 0..=20 {
+            let s = 24.0 * f64::from(i) / 20.0;
+            let (a, b) = (piece.at(s), segment.at(7.0 + s));
+            assert!((a.point - b.point).hypot() < 1e-12);
+            assert!((a.direction - b.direction).abs() < 1e-13);
+            assert!((a.curvature - b.curvature).abs() < 1e-13);
+        }
+        let backwards = segment.reversed();
+        let there = segment.at(10.0);
+        let back = backwards.at(segment.length() - 10.0);
+        assert!((there.point - back.point).hypot() < 1e-12);
+        assert!((there.curvature + back.curvature).abs() < 1e-13);
+    }
+
+    #[test]
+    fn the_box_is_the_smallest() {
+        let segment = sample();
+        let bounds = segment.bounding_box();
+        let mut seen = Rect::from_points(segment.start(), segment.end());
+        for i in 0..=4000 {
+            let point = segment.point(segment.length() * f64::from(i) / 4000.0);
+            assert!(bounds.inflate(1e-12, 1e-12).contains(point));
+            seen = seen.union_pt(point);
+        }
+        assert!((bounds.area() - seen.area()).abs() < 1e-4 * bounds.area());
+    }
+
+    #[test]
+    fn nearest_points_are_no_farther_than_any_sample() {
+        let segment = sample();
+        for target in [(0.0, 0.0), (20.0, 5.0), (45.0, 30.0), (18.0, 20.0), (-50.0, 90.0)] {
+            let target = Point::from(target);
+            let (s, distance) = segment.nearest(target, 1e-9);
+            assert!(((segment.point(s) - target).hypot() - distance).abs() < 1e-12);
+            for i in 0..=4000 {
+                let point = segment.point(segment.length() * f64::from(i) / 4000.0);
+                assert!(distance <= (point - target).hypot() + 1e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn energies_agree_with_quadrature() {
+        let segment = sample();
+        let (mut bending, mut variation) = (0.0, 0.0);
+        let n = 20_000;
+        for i in 0..n {
+            let jet = segment.curvature_jet(segment.length() * (f64::from(i) + 0.5) / f64::from(n));
+            bending += jet[0] * jet[0];
+            variation += jet[1] * jet[1];
+        }
+        let ds = segment.length() / f64::from(n);
+        assert!((bending * ds / segment.bending_energy() - 1.0).abs() < 1e-7);
+        assert!((variation * ds / segment.variation_energy() - 1.0).abs() < 1e-7);
+    }
+
+    #[test]
+    fn inflections_and_extrema_are_where_they_should_be() {
+        let segment = sample();
+        for s in segment.inflections() {
+            assert!(segment.curvature(s).abs() < 1e-14);
+        }
+        for s in segment.curvature_extrema() {
+            assert!(segment.curvature_jet(s)[1].abs() < 1e-15);
+        }
+    }
+}
