@@ -44,7 +44,10 @@ impl Ours {
             .curve
             .segments()
             .iter()
-            .map(|segment| Piece { k: segment.kappa().unwrap_or_default(), length: Some(segment.length()) })
+            .map(|segment| Piece {
+                k: segment.kappa().unwrap_or_default(),
+                length: Some(segment.length()),
+            })
             .collect();
         let placed = PlacedCurve::new(contour, &pieces);
         let claimed: Vec<Join> = solution.knots.iter().map(|knot| knot.join).collect();

@@ -68,6 +68,7 @@ fn values(param: &ParamSpec) -> String {
         ParamKind::Choice { options } => {
             with_default(first(options), options.iter().skip(1).copied())
         }
+        ParamKind::Text { default } => format!("text, default {default}"),
     }
 }
 
@@ -111,6 +112,7 @@ struct ParamEntry {
 enum ValuesEntry {
     Number { default: f64, min: f64, max: f64 },
     Choice { default: &'static str, options: &'static [&'static str] },
+    Text { default: &'static str },
 }
 
 fn as_json() -> Result<String, Failure> {
@@ -123,6 +125,7 @@ fn entry(info: &SplineInfo) -> SplineEntry {
     let values = |kind: &ParamKind| match *kind {
         ParamKind::Number { default, min, max } => ValuesEntry::Number { default, min, max },
         ParamKind::Choice { options } => ValuesEntry::Choice { default: first(options), options },
+        ParamKind::Text { default } => ValuesEntry::Text { default },
     };
     SplineEntry {
         name: info.name,

@@ -506,6 +506,7 @@ fn choice() -> impl Strategy<Value = SplineChoice> {
                         ParamKind::Choice { options } => {
                             ParamValue::Text(options[which as usize % options.len()].to_owned())
                         }
+                        ParamKind::Text { default } => ParamValue::Text((*default).to_owned()),
                     };
                     choice.params.set(spec.name, value);
                 }

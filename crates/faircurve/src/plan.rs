@@ -194,12 +194,36 @@ struct Node {
     last: usize,
     point: Point,
     join: Join,
+    /// Whether it is for the spline to find what holds here; if not, the contour is cut here.
+    is_inner: bool,
     tangent_in: Option<f64>,
     tangent_out: Option<f64>,
     curvature_in: Option<f64>,
     curvature_out: Option<f64>,
     tension: [Option<f64>; 2],
     curl: Option<f64>,
+}
+
+impl Node {
+    /// Whether both sides are ends of their own.
+    fn is_corner(&self) -> bool {
+        self.join == Join::Corner && !self.is_inner
+    }
+
+    /// Takes in the join of a coincident knot: the same if they agree, a corner if either is one,
+    /// else the weaker of the symmetric ones.
+    fn merge_join(&mut self, other: ResolvedJoin) {
+        self.is_inner &= other.is_inner;
+        self.join = if self.join == other.join {
+            self.join
+        } else if self.join == Join::Corner || other.join == Join::Corner {
+            Join::Corner
+        } else if self.join == Join::G1 || other.join == Join::G1 {
+            Join::G1
+        } else {
+            Join::G2
+        };
+    }
 }
 
 /// Where a run came from.
@@ -279,7 +303,7 @@ impl Plan {
             at.tangent_in.is_some() || at.curvature_in.is_some()
         };
         let one_way = if outgoing { Join::CurveToTerminal } else { Join::TerminalToCurve };
-        !given && (self.is_open_end(node) || at.join == Join::Corner || at.join == one_way)
+        !given && (self.is_open_end(node) || at.is_corner() || at.join == one_way)
     }
 
     /// A segment between two terminal sides has four conditions on the three derivatives of its
@@ -298,7 +322,7 @@ impl Plan {
         let splits = |node: usize| {
             let before = if node == 0 { segments.wrapping_sub(1) } else { node - 1 };
             self.is_open_end(node)
-                || matches!(self.nodes[node].join, Join::Corner | Join::G1)
+                || !self.nodes[node].is_inner
                 || self.straight.get(node) == Some(&true)
                 || self.straight.get(before) == Some(&true)
         };
@@ -360,7 +384,7 @@ impl Plan {
             (at.tangent_in, at.curvature_in)
         };
         let beyond = if outgoing { (node + segments - 1) % segments } else { node };
-        if !self.is_open_end(node) && at.join != Join::Corner && self.straight[beyond] {
+        if !self.is_open_end(node) && !at.is_corner() && self.straight[beyond] {
             let line = self.nodes[(beyond + 1) % n].point - self.nodes[beyond].point;
             tangent = Some(direction(line));
             if at.join != Join::G1 {
@@ -545,7 +569,7 @@ fn check(contour: &Contour) -> Result<(), InputError> {
 }
 
 /// Each knot's join, with the spline's own where it lacks the one asked.
-fn resolve_joins(contour: &Contour, spline: &dyn Spline) -> (Vec<Join>, Vec<Adaptation>) {
+fn resolve_joins(contour: &Contour, spline: &dyn Spline) -> (Vec<ResolvedJoin>, Vec<Adaptation>) {
     let mut adapted = Vec::new();
     let last = contour.knots.len() - 1;
     let joins = contour
@@ -560,10 +584,21 @@ fn resolve_joins(contour: &Contour, spline: &dyn Spline) -> (Vec<Join>, Vec<Adap
                 let (asked, got) = (asked.name(), got.name());
                 adapted.push(Adaptation { place: Place::Knot(index), asked, got });
             }
-            got
+            // A knot joins as splines of that kind do, or is cut out of them by what is asked: a
+            // corner asked for is one even where the spline's own joins are no better.
+            let is_own = knot.join != Some(Join::Corner) && got == spline.default_join();
+            let is_inner = is_own || !matches!(got, Join::Corner | Join::G1);
+            ResolvedJoin { join: got, is_inner }
         })
         .collect();
     (joins, adapted)
+}
+
+/// How a knot joins, and whether it is for the spline to find what holds there.
+#[derive(Clone, Copy, Debug)]
+struct ResolvedJoin {
+    join: Join,
+    is_inner: bool,
 }
 
 /// The scale that brings a contour to unit size. A power of two, so that it adds no rounding; and
@@ -611,7 +646,7 @@ impl NormalFrame {
 
 /// Turns knots into nodes, one for each stretch of coincident neighbours. What coincides with a
 /// stretch's first knot belongs to it, too: step by step it may lead away and back again.
-fn merge_coincident(contour: &Contour, joins: &[Join], frame: &NormalFrame) -> Vec<Node> {
+fn merge_coincident(contour: &Contour, joins: &[ResolvedJoin], frame: &NormalFrame) -> Vec<Node> {
     let knots = &contour.knots;
     let count = knots.len();
     let points: Vec<Point> = knots.iter().map(|knot| frame.point(knot.point)).collect();
@@ -628,7 +663,7 @@ fn merge_coincident(contour: &Contour, joins: &[Join], frame: &NormalFrame) -> V
         let (tangent_out, curvature_out, tension_out) = last_of(knot);
         match nodes.last_mut() {
             Some(node) if coincide(i - 1, i) || coincide(node.first, i) => {
-                node.join = merged_join(node.join, joins[i]);
+                node.merge_join(joins[i]);
                 node.last = i;
                 (node.tangent_out, node.curvature_out) = (tangent_out, curvature_out);
                 node.tension[1] = tension_out;
@@ -637,7 +672,8 @@ fn merge_coincident(contour: &Contour, joins: &[Join], frame: &NormalFrame) -> V
                 first: i,
                 last: i,
                 point: points[i],
-                join: joins[i],
+                join: joins[i].join,
+                is_inner: joins[i].is_inner,
                 tangent_in: angle(knot.tangent_in),
                 tangent_out,
                 curvature_in: knot.curvature_in.map(|k| k / frame.scale),
@@ -655,25 +691,11 @@ fn merge_coincident(contour: &Contour, joins: &[Join], frame: &NormalFrame) -> V
         let tail = nodes.pop().unwrap_or_else(|| nodes[0].clone());
         let head = &mut nodes[0];
         head.first = tail.first;
-        head.join = merged_join(tail.join, head.join);
+        head.merge_join(ResolvedJoin { join: tail.join, is_inner: tail.is_inner });
         (head.tangent_in, head.curvature_in) = (tail.tangent_in, tail.curvature_in);
         head.tension[0] = tail.tension[0];
     }
     nodes
-}
-
-/// The join of two coincident knots: the same if they agree, a corner if either is one, else the
-/// weaker of the symmetric ones.
-fn merged_join(a: Join, b: Join) -> Join {
-    if a == b {
-        a
-    } else if a == Join::Corner || b == Join::Corner {
-        Join::Corner
-    } else if a == Join::G1 || b == Join::G1 {
-        Join::G1
-    } else {
-        Join::G2
-    }
 }
 
 /// Brings what is given at smooth knots into one form: the same tangent and curvature on both
@@ -690,7 +712,7 @@ fn settle_given(
         let is_end = !contour.closed && (i == 0 || i + 1 == n);
         let (before, after) = (nodes[(i + n - 1) % n].point, nodes[(i + 1) % n].point);
         let node = &mut nodes[i];
-        if is_end || node.join == Join::Corner || n == 1 {
+        if is_end || node.is_corner() || n == 1 {
             continue;
         }
         let join = node.join;
@@ -701,14 +723,15 @@ fn settle_given(
         }
         node.tangent_in = node.tangent_in.or(node.tangent_out);
         node.tangent_out = node.tangent_in;
-        if join == Join::G2 && node.tangent_in.is_some() {
-            node.join = Join::G1;
-            if contour.knots[node.first].join.is_some() {
+        let is_weak = matches!(join, Join::Corner | Join::G1 | Join::G2);
+        if node.is_inner && is_weak && node.tangent_in.is_some() {
+            (node.join, node.is_inner) = (Join::G1, false);
+            if join != Join::G1 && contour.knots[node.first].join.is_some() {
                 let place = Place::Knot(node.first);
                 adapted.push(Adaptation { place, asked: join.name(), got: Join::G1.name() });
             }
         }
-        if node.join == Join::G1 {
+        if !node.is_inner {
             let tangent =
                 node.tangent_in.unwrap_or_else(|| circle_tangent(before, node.point, after));
             (node.tangent_in, node.tangent_out) = (Some(tangent), Some(tangent));

@@ -33,36 +33,69 @@ pub struct SplineInfo {
     /// Properties of thesis chapter 2 that it claims (the laws test them).
     pub claims: &'static [Claim],
     /// Makes the spline from checked parameters.
-    pub build: fn(&Params) -> Box<dyn Spline>,
+    pub build: fn(&Params) -> Result<Box<dyn Spline>, CatalogError>,
+}
+
+impl SplineInfo {
+    /// The order of geometric continuity that it claims; 0 where it claims none.
+    pub fn continuity(&self) -> u8 {
+        let order = |claim: &Claim| match claim {
+            Claim::Continuity(order) => Some(*order),
+            _ => None,
+        };
+        self.claims.iter().find_map(order).unwrap_or(0)
+    }
 }
 
 /// A property in the sense of thesis chapter 2.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Claim {
     /// Points on a circle give the circle (2.3).
     Round,
+    /// The closed curve through n points evenly on a circle leaves it by O(n⁻ᵏ) (2.3).
+    RoundToOrder(u8),
     /// A knot added on the curve doesn't change it (2.4).
     Extensional,
+    /// Every segment is cut from one curve, up to similarity and mirror (4.1, Theorem 1).
+    GeneratingCurve,
     /// Curvature is monotone between knots (2.9).
     MonotoneCurvature,
     /// Similarities carry the curve with them (2.7).
     SimilarityInvariant,
     /// Mirroring and travelling backwards carry the curve with them (2.7).
     Symmetric,
+    /// Affine maps carry the curve with them (2.7).
+    AffineInvariant,
     /// Geometric continuity of this order at its default smooth join (2.2).
     Continuity(u8),
     /// Number of parameters of a segment (2.8).
     Parameters(u8),
+    /// A small push of one knot makes a ripple that shrinks by this factor from knot to knot on
+    /// straight, evenly spaced knots (2.6).
+    Ripple(f64),
+    /// Moving a knot changes this many segments on either side, and no others (2.6).
+    FiniteSupport(u8),
+    /// There is a curve for any knots (2.5).
+    Exists,
+    /// Small moves of the knots move the curve little, whatever the knots (2.5).
+    Continuous,
 }
 
 impl fmt::Display for Claim {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Claim::Round => f.write_str("round"),
+            Claim::RoundToOrder(order) => write!(f, "round-to-order-{order}"),
             Claim::Extensional => f.write_str("extensional"),
+            Claim::GeneratingCurve => f.write_str("generating-curve"),
             Claim::MonotoneCurvature => f.write_str("monotone-curvature"),
             Claim::SimilarityInvariant => f.write_str("similarity-invariant"),
             Claim::Symmetric => f.write_str("symmetric"),
+            Claim::AffineInvariant => f.write_str("affine-invariant"),
+            Claim::Ripple(factor) => write!(f, "ripple-{factor:.3}"),
+            Claim::FiniteSupport(segments) => write!(f, "support-{segments}"),
+            Claim::Exists => f.write_str("exists"),
+            Claim::Continuous => f.write_str("continuous"),
             Claim::Continuity(order) => write!(f, "g{order}"),
             Claim::Parameters(count) => write!(f, "{count}-parameter"),
         }
@@ -96,6 +129,11 @@ pub enum ParamKind {
     Choice {
         /// The words; the first is the default.
         options: &'static [&'static str],
+    },
+    /// Any text that the spline can read.
+    Text {
+        /// The text when none is given.
+        default: &'static str,
     },
 }
 
@@ -283,7 +321,7 @@ pub fn build(name: &str, params: &Params) -> Result<Box<dyn Spline>, CatalogErro
             expected,
         })?;
     }
-    Ok((info.build)(params))
+    (info.build)(params)
 }
 
 impl ParamSpec {
@@ -302,6 +340,8 @@ impl ParamSpec {
                 Ok(())
             }
             (ParamKind::Choice { options }, _) => Err(one_of(options.iter().copied())),
+            // The spline itself says what it makes of it.
+            (ParamKind::Text { .. }, _) => Ok(()),
         }
     }
 }

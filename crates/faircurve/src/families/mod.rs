@@ -2,4 +2,5 @@
 
 pub mod catalog;
 pub mod euler;
+pub mod shapes;
 pub mod spiro;

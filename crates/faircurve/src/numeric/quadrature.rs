@@ -6,8 +6,9 @@ use super::gauss_legendre::GAUSS_16;
 pub(crate) fn gauss_16(f: &impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
     let (middle, width) = ((from + to) / 2.0, to - from);
     let pairs = GAUSS_16.nodes.iter().zip(GAUSS_16.pair_weights);
-    let sum: f64 =
-        pairs.map(|(s, weight)| weight / 2.0 * (f(middle - s * width) + f(middle + s * width))).sum();
+    let sum: f64 = pairs
+        .map(|(s, weight)| weight / 2.0 * (f(middle - s * width) + f(middle + s * width)))
+        .sum();
     sum * width
 }
 

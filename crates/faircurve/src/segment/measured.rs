@@ -129,7 +129,8 @@ impl<C: ParametricCurve> Measured<C> {
                 low = u;
             }
             let step = over / self.curve.velocity(u).norm();
-            let next = if (low..=high).contains(&(u - step)) { u - step } else { (low + high) / 2.0 };
+            let next =
+                if (low..=high).contains(&(u - step)) { u - step } else { (low + high) / 2.0 };
             if (next - u).abs() <= f64::EPSILON * (end - panel.u) {
                 return next;
             }
@@ -232,12 +233,10 @@ impl<C: ParametricCurve> UnitCurve for Measured<C> {
             let series = self.curve.velocity_series(u);
             f(curvature_jet(series)) * series[0].norm()
         };
-        let stops: Vec<f64> =
-            self.stops(from, to).into_iter().map(|s| self.parameter(s)).collect();
+        let stops: Vec<f64> = self.stops(from, to).into_iter().map(|s| self.parameter(s)).collect();
         integrate(&integrand, &stops).min(f64::MAX)
     }
 }
-
 
 #[cfg(test)]
 mod tests;

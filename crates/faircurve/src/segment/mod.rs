@@ -13,9 +13,7 @@ use num_complex::Complex64;
 
 use crate::frame::{direction, turning, wrap_angle};
 use crate::numeric::roots::{monotone_root, roots_between};
-use crate::numeric::spiro_integral::{
-    angle, curvature_jet, spiro_integral_between,
-};
+use crate::numeric::spiro_integral::{angle, curvature_jet, spiro_integral_between};
 
 pub use bezier::UnitBezier;
 pub use measured::{Measured, ParametricCurve};

@@ -1,8 +1,13 @@
 //! Splines whose segments have two parameters, the tangents at their ends (thesis chapter 4).
 //!
-//! A [family] of segments is a curvature map, from end tangents to end curvatures, and a shape that
-//! fills the segment; the [spline] solves for the tangents that make curvature
-//! continuous.
+//! "Any given two-parameter spline can be characterized by two properties: the family of curves
+//! parametrized by the endpoint tangent angles, and the algorithm used to determine the tangent
+//! angles." So a [spline] is a [rule](tangents) for tangents and a [shape] for segments. The rule of
+//! most is [continuity] of curvature, as a [curvature map](curvature_map) has it; the map and the
+//! shape need not belong together (Bespoke section 2).
 
-pub mod family;
+pub mod continuity;
+pub mod curvature_map;
+pub mod shape;
 pub mod spline;
+pub mod tangents;

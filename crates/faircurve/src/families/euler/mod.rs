@@ -15,8 +15,10 @@ use crate::outline::Join;
 use crate::plan::Run;
 use crate::segment::{PolynomialSpiral, Segment};
 use crate::spline::{Effort, RunSolution, Spline};
-use crate::tolerance::{LOOP, SOLVED};
-use crate::two_param::family::{EndCurvatures, NaturalEnd, TwoParamFamily};
+use crate::tolerance::LOOP;
+use crate::two_param::continuity::{Continuity, NaturalEnd};
+use crate::two_param::curvature_map::{CurvatureMap, EndCurvatures, SegmentContext};
+use crate::two_param::shape::{SegmentEnds, SegmentShape};
 use crate::two_param::spline::TwoParamSpline;
 
 /// The catalogue's row.
@@ -41,22 +43,35 @@ pub const INFO: SplineInfo = SplineInfo {
         Claim::SimilarityInvariant,
         Claim::Symmetric,
     ],
-    build: |params| Box::new(Euler::from_params(params)),
+    build: |params| Ok(Box::new(Euler::from_params(params))),
 };
 
 /// The Euler spiral spline.
 #[derive(Clone, Copy, Debug)]
 pub struct Euler {
+    spline: TwoParamSpline<Continuity<EulerSpirals>, EulerSpirals>,
     end: NaturalEnd,
 }
 
 impl Default for Euler {
     fn default() -> Self {
-        Euler { end: NaturalEnd::Arc }
+        Euler::new(NaturalEnd::Arc)
     }
 }
 
 impl Euler {
+    fn new(end: NaturalEnd) -> Self {
+        let rule = Continuity { map: EulerSpirals, end };
+        Euler { spline: TwoParamSpline::new(&INFO, rule, EulerSpirals), end }
+    }
+
+    fn from_params(params: &Params) -> Self {
+        Euler::new(match params.choice("end", "arc") {
+            "zero-curvature" => NaturalEnd::ZeroCurvature,
+            _ => NaturalEnd::Arc,
+        })
+    }
+
     /// The same run for a four-parameter spline whose G2 segments are Euler spirals.
     fn as_g2(&self, run: &Run) -> Run {
         let mut run = run.clone();
@@ -68,48 +83,36 @@ impl Euler {
             }
             knot.curvature = match (is_end, knot.tangent, self.end) {
                 (true, None, NaturalEnd::ZeroCurvature) => knot.curvature.or(Some(0.0)),
-                (true, None, NaturalEnd::Arc) => knot.curvature,
+                (true, None, _) => knot.curvature,
                 _ => None,
             };
         }
         run
     }
-
-    fn from_params(params: &Params) -> Self {
-        let end = match params.choice("end", "arc") {
-            "zero-curvature" => NaturalEnd::ZeroCurvature,
-            _ => NaturalEnd::Arc,
-        };
-        Euler { end }
-    }
 }
 
 impl Spline for Euler {
     fn name(&self) -> &'static str {
-        INFO.name
+        self.spline.name()
     }
 
     fn default_join(&self) -> Join {
-        INFO.default_join
+        self.spline.default_join()
     }
 
     fn adapt(&self, join: Join) -> Join {
-        match join {
-            Join::Corner | Join::G1 => join,
-            Join::G2 | Join::G4 | Join::CurveToTerminal | Join::TerminalToCurve => Join::G2,
-        }
+        self.spline.adapt(join)
     }
 
     fn solve_plainly(&self, run: &Run) -> Option<RunSolution> {
-        let solved = TwoParamSpline::new(*self).solve_run(run);
-        let loops = solved.segments.iter().any(|s| s.length() > LOOP * s.chord_length());
-        (solved.residual <= SOLVED && !loops).then_some(solved)
+        let loops = |segment: &Segment| segment.length() > LOOP * segment.chord_length();
+        self.spline.solve_plainly(run).filter(|solved| !solved.segments.iter().any(loops))
     }
 
     /// Tangents alone can't leave the principal square of chord angles; the wider search over
     /// windings is that of the polynomial spirals, of which all-G2 runs are Euler spirals.
     fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution {
-        let solved = TwoParamSpline::new(*self).solve_run(run);
+        let solved = self.spline.solve_run(run, Effort::NONE);
         let wider = ConstraintSpline::new(PolynomialSpirals).solve_run(&self.as_g2(run), effort);
         RunSolution {
             adapted: solved.adapted,
@@ -119,8 +122,12 @@ impl Spline for Euler {
     }
 }
 
-impl TwoParamFamily for Euler {
-    fn curvatures(&self, angles: ChordAngles) -> EndCurvatures {
+/// The family: cut from the one Euler spiral.
+#[derive(Clone, Copy, Debug)]
+pub struct EulerSpirals;
+
+impl CurvatureMap for EulerSpirals {
+    fn curvatures(&self, angles: ChordAngles, _context: &SegmentContext) -> EndCurvatures {
         match fit(angles) {
             Ok(fit) => fit.curvatures(),
             // Only in corners, which `limit` excludes: no curvature, whatever the angles.
@@ -131,20 +138,22 @@ impl TwoParamFamily for Euler {
         }
     }
 
-    fn shape(&self, start: Point, end: Point, angles: ChordAngles) -> Segment {
-        match fit_euler(angles) {
+    fn limit(&self) -> f64 {
+        // Beyond, segments close into whole circles whose chord is lost in rounding.
+        PI - 0.01
+    }
+}
+
+impl SegmentShape for EulerSpirals {
+    fn place(&self, start: Point, end: Point, ends: &SegmentEnds) -> Segment {
+        match fit_euler(ends.angles) {
             Ok(spiral) => Segment::spiral(start, end, spiral),
             Err(_) => Segment::line(start, end),
         }
     }
 
-    fn natural_end(&self) -> NaturalEnd {
-        self.end
-    }
-
-    fn limit(&self) -> f64 {
-        // Beyond, segments close into whole circles whose chord is lost in rounding.
-        PI - 0.01
+    fn keeps_curvature(&self) -> bool {
+        true
     }
 }
 

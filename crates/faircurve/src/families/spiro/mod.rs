@@ -33,7 +33,7 @@ pub const INFO: SplineInfo = SplineInfo {
         Claim::SimilarityInvariant,
         Claim::Symmetric,
     ],
-    build: |_| Box::new(Spiro),
+    build: |_| Ok(Box::new(Spiro)),
 };
 
 /// The Spiro spline. It takes no parameters.

@@ -1,0 +1,349 @@
+//! Tangents that make curvature continuous, by Newton's method (thesis section 8.3.1).
+
+use super::curvature_map::{CurvatureMap, EndCurvatures, SegmentContext};
+use super::shape::SegmentEnds;
+use super::tangents::{TangentRule, Tangents, context, ignored_curvature};
+use crate::frame::{ChordAngles, EndCurvature, circle_tangent, direction, wrap_angle};
+use crate::numeric::block_tridiagonal::BlockTridiagonal;
+use crate::numeric::newton::{Limits, System, newton};
+use crate::plan::Run;
+use crate::spline::Adaptation;
+
+/// What holds at a free end of an open run.
+#[derive(Clone, Copy, Debug)]
+pub enum NaturalEnd {
+    /// The last segment is symmetric, `theta0` = `theta1`: an arc, for round families.
+    Arc,
+    /// The curvature is zero.
+    ZeroCurvature,
+    /// The end's angle is this function of the angle at the segment's other end, given with its
+    /// derivative; it must be odd.
+    Angle(fn(f64) -> (f64, f64)),
+    /// The curvature is this times that at the segment's other end (METAFONT's curl), unless the
+    /// knot has a curl of its own. For linear maps.
+    Curl(f64),
+}
+
+/// The rule that curvature is continuous at every knot.
+#[derive(Clone, Copy, Debug)]
+pub struct Continuity<M> {
+    /// The curvatures that must agree.
+    pub map: M,
+    /// What holds at free ends.
+    pub end: NaturalEnd,
+}
+
+impl<M: CurvatureMap> TangentRule for Continuity<M> {
+    fn tangents(&self, run: &Run) -> Tangents {
+        let mut system = TangentSystem::new(self, run);
+        let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
+        let outcome = newton(&mut system, &mut matrix, Limits { iterations: 16, patience: 8 });
+        system.finish(outcome.iterations)
+    }
+}
+
+/// What must hold at a knot.
+#[derive(Clone, Copy, Debug)]
+enum Equation {
+    /// Curvature is the same on both sides.
+    Continuous,
+    /// A free end.
+    End(NaturalEnd),
+    /// The angle from the knot's own side is given.
+    Direction(f64),
+    /// The curvature at an end is given, in the run's units.
+    Curvature(f64),
+}
+
+/// The tangents of a run and the equations for them.
+struct TangentSystem<'a, M> {
+    map: &'a M,
+    contexts: Vec<SegmentContext>,
+    turns: Vec<f64>,
+    equations: Vec<Equation>,
+    /// `theta0` of the segment that leaves each knot; at the end of an open run, `theta1` of the
+    /// one that arrives.
+    tangents: Vec<f64>,
+    closed: bool,
+    responses: Vec<EndCurvatures>,
+    mismatch: Vec<f64>,
+    adapted: Vec<Adaptation>,
+}
+
+impl<'a, M: CurvatureMap> TangentSystem<'a, M> {
+    fn new(rule: &'a Continuity<M>, run: &Run) -> Self {
+        let n = run.knots.len();
+        let segments = run.segment_count();
+        let mut adapted = Vec::new();
+        let last = n - 1;
+        let equations: Vec<Equation> = (0..n)
+            .map(|i| {
+                let knot = &run.knots[i];
+                let is_end = !run.closed && (i == 0 || i == last);
+                match (is_end, knot.tangent, knot.curvature) {
+                    (true, Some(tangent), given) => {
+                        if given.is_some() {
+                            adapted.push(ignored_curvature(i));
+                        }
+                        Equation::Direction(if i == 0 {
+                            wrap_angle(direction(run.chord(0)) - tangent)
+                        } else {
+                            wrap_angle(tangent - direction(run.chord(last - 1)))
+                        })
+                    }
+                    (true, None, Some(curvature)) => Equation::Curvature(curvature),
+                    (true, None, None) => Equation::End(match (rule.end, knot.curl) {
+                        (NaturalEnd::Curl(_), Some(curl)) => NaturalEnd::Curl(curl),
+                        (end, _) => end,
+                    }),
+                    (false, _, given) => {
+                        if given.is_some() {
+                            adapted.push(ignored_curvature(i));
+                        }
+                        Equation::Continuous
+                    }
+                }
+            })
+            .collect();
+        let mut system = TangentSystem {
+            map: &rule.map,
+            contexts: (0..segments).map(|i| context(run, i)).collect(),
+            turns: run.knots.iter().map(|knot| knot.turn).collect(),
+            equations,
+            tangents: vec![0.0; n],
+            closed: run.closed,
+            responses: Vec::with_capacity(segments),
+            mismatch: vec![0.0; n],
+            adapted,
+        };
+        system.start_from_circles(run);
+        system
+    }
+
+    /// The tangents of the circle spline (thesis 4.10), arcs at the ends.
+    fn start_from_circles(&mut self, run: &Run) {
+        let n = run.knots.len();
+        let interior = |i: usize| run.closed || (i > 0 && i + 1 < n);
+        for i in (0..n).filter(|&i| interior(i)) {
+            let (before, after) = ((i + n - 1) % n, (i + 1) % n);
+            let (a, b, c) = (run.knots[before].point, run.knots[i].point, run.knots[after].point);
+            let tangent = wrap_angle(direction(run.chord(i)) - circle_tangent(a, b, c));
+            self.tangents[i] = tangent;
+        }
+        if !run.closed {
+            self.tangents[0] = if n > 2 { self.turns[1] - self.tangents[1] } else { 0.0 };
+            self.tangents[n - 1] = if n > 2 { self.tangents[n - 2] } else { 0.0 };
+            for i in [0, n - 1] {
+                if let Equation::Direction(angle) = self.equations[i] {
+                    self.tangents[i] = angle;
+                }
+            }
+        }
+        for i in 0..n {
+            self.keep_in_range(i);
+        }
+    }
+
+    /// The end tangents of a segment.
+    fn angles(&self, segment: usize) -> ChordAngles {
+        let end = (segment + 1) % self.tangents.len();
+        let is_last = !self.closed && segment + 1 == self.contexts.len();
+        let theta1 =
+            if is_last { self.tangents[end] } else { self.turns[end] - self.tangents[end] };
+        ChordAngles::new(self.tangents[segment], theta1)
+    }
+
+    /// Brings both angles at a knot within the family's limit.
+    fn keep_in_range(&mut self, i: usize) {
+        let limit = self.map.limit();
+        let n = self.tangents.len();
+        let (mut low, mut high) = (-limit, limit);
+        if self.closed || (i > 0 && i + 1 < n) {
+            low = low.max(self.turns[i] - limit);
+            high = high.min(self.turns[i] + limit);
+        }
+        if low < high {
+            self.tangents[i] = self.tangents[i].clamp(low, high);
+        } else {
+            self.tangents[i] = (low + high) / 2.0;
+        }
+    }
+}
+
+/// One linearised equation: its value, and the derivatives by the knot's own unknown and those of its
+/// neighbours.
+#[derive(Clone, Copy, Debug, Default)]
+struct Row {
+    value: f64,
+    lower: f64,
+    diagonal: f64,
+    upper: f64,
+}
+
+impl<M: CurvatureMap> TangentSystem<'_, M> {
+    /// The equation of knot `i`. Its unknown is `theta0` of the segment after it, which is the turn
+    /// less `theta1` of the one before; at the end of an open run, `theta1` itself.
+    fn row(&self, i: usize) -> Row {
+        let n = self.tangents.len();
+        let left = if i > 0 { Some(i - 1) } else { self.closed.then_some(n - 1) };
+        let right = if i + 1 < n || self.closed { Some(i) } else { None };
+        // How theta1 of the segment after responds to the unknown of the next knot.
+        let next = if !self.closed && i + 2 == n { 1.0 } else { -1.0 };
+        match (self.equations[i], left, right) {
+            (Equation::Continuous, Some(l), Some(r)) if self.map.is_linear() => {
+                // κ/c on both sides, times the longer chord: what stays between 0 and 1.
+                let (cl, cr) = (self.contexts[l].chord, self.contexts[r].chord);
+                let (wl, wr) = (cl.max(cr) / cl, cl.max(cr) / cr);
+                let (wl, wr) = (wl / (wl + wr), wr / (wl + wr));
+                let (left, right) = (&self.responses[l], &self.responses[r]);
+                Row {
+                    value: right.value[0].num * wr - left.value[1].num * wl,
+                    lower: -left.by_angle[1][0].num * wl,
+                    diagonal: left.by_angle[1][1].num * wl + right.by_angle[0][0].num * wr,
+                    upper: right.by_angle[0][1].num * wr * next,
+                }
+            }
+            (Equation::Continuous, Some(l), Some(r)) => {
+                let (cl, cr) = (self.contexts[l].chord.sqrt(), self.contexts[r].chord.sqrt());
+                let v = Turned::new(self.responses[l].value[1], cl, cr);
+                let w = Turned::new(self.responses[r].value[0], cr, cl);
+                let [l0, l1] =
+                    self.responses[l].by_angle[1].map(|by| v.angle_by(&Turned::new(by, cl, cr)));
+                let [r0, r1] =
+                    self.responses[r].by_angle[0].map(|by| w.angle_by(&Turned::new(by, cr, cl)));
+                Row { value: v.angle_to(&w), lower: -l0, diagonal: l1 + r0, upper: r1 * next }
+            }
+            (Equation::Direction(angle), _, _) => {
+                Row { value: self.tangents[i] - angle, diagonal: 1.0, ..Row::default() }
+            }
+            (Equation::End(end), _, Some(r)) => {
+                let (value, [by0, by1]) = self.natural_end(end, r, 0);
+                Row { value, diagonal: by0, upper: by1 * next, lower: 0.0 }
+            }
+            (Equation::End(end), Some(l), None) => {
+                let (value, [by0, by1]) = self.natural_end(end, l, 1);
+                Row { value, diagonal: by1, lower: by0, upper: 0.0 }
+            }
+            (Equation::Curvature(curvature), _, Some(r)) => {
+                let (value, [by0, by1]) = self.end_curvature(r, 0, curvature);
+                Row { value, diagonal: by0, upper: by1 * next, lower: 0.0 }
+            }
+            (Equation::Curvature(curvature), Some(l), None) => {
+                let (value, [by0, by1]) = self.end_curvature(l, 1, curvature);
+                Row { value, diagonal: by1, lower: by0, upper: 0.0 }
+            }
+            // A knot without a segment, or continuity at an end: nothing to ask.
+            _ => Row { diagonal: 1.0, ..Row::default() },
+        }
+    }
+
+    /// How far a free end at the start (0) or end (1) of a segment is from what must hold there, and
+    /// how that responds to the segment's angles.
+    fn natural_end(&self, natural: NaturalEnd, segment: usize, end: usize) -> (f64, [f64; 2]) {
+        let ChordAngles { theta0, theta1 } = self.angles(segment);
+        let [own, other] = if end == 0 { [theta0, theta1] } else { [theta1, theta0] };
+        let (value, [by_own, by_other]) = match natural {
+            NaturalEnd::Arc => (own - other, [1.0, -1.0]),
+            NaturalEnd::Angle(function) => {
+                let (angle, slope) = function(other);
+                (own - angle, [1.0, -slope])
+            }
+            NaturalEnd::ZeroCurvature => return self.end_curvature(segment, end, 0.0),
+            NaturalEnd::Curl(curl) => {
+                let response = &self.responses[segment];
+                // Between equal weights for small and large curls.
+                let (here, there) = (1.0 / (1.0 + curl.abs()), curl / (1.0 + curl.abs()));
+                let weighed = |a: EndCurvature, b: EndCurvature| here * a.num - there * b.num;
+                let by = |angle: usize| {
+                    weighed(response.by_angle[end][angle], response.by_angle[1 - end][angle])
+                };
+                let value = weighed(response.value[end], response.value[1 - end]);
+                return (value, [by(0), by(1)]);
+            }
+        };
+        (value, if end == 0 { [by_own, by_other] } else { [by_other, by_own] })
+    }
+
+    /// The tangents reached.
+    fn finish(mut self, iterations: usize) -> Tangents {
+        let ends = (0..self.contexts.len())
+            .map(|i| SegmentEnds {
+                angles: self.angles(i),
+                curvatures: self.responses.get(i).map(|response| response.value),
+                context: self.contexts[i],
+            })
+            .collect();
+        let adapted = std::mem::take(&mut self.adapted);
+        Tangents { ends, mismatch: self.mismatch, adapted, iterations }
+    }
+
+    /// How far the curvature at the start (0) or end (1) of a segment is from the one wanted, in the
+    /// run's units, and how that responds to the segment's angles.
+    fn end_curvature(&self, segment: usize, end: usize, wanted: f64) -> (f64, [f64; 2]) {
+        let response = &self.responses[segment];
+        let own = Turned::new(response.value[end], 1.0, 1.0);
+        let wanted = Turned { num: wanted * self.contexts[segment].chord, den: 1.0 };
+        let by = response.by_angle[end].map(|by| own.angle_by(&Turned::new(by, 1.0, 1.0)));
+        (wanted.angle_to(&own), by)
+    }
+}
+
+impl<M: CurvatureMap> System<1> for TangentSystem<'_, M> {
+    fn linearize(&mut self, matrix: &mut BlockTridiagonal<1>) -> f64 {
+        let n = self.tangents.len();
+        self.responses.clear();
+        for segment in 0..self.contexts.len() {
+            let response = self.map.curvatures(self.angles(segment), &self.contexts[segment]);
+            self.responses.push(response);
+        }
+        let mut residual = 0.0f64;
+        for i in 0..n {
+            let row = self.row(i);
+            self.mismatch[i] = row.value.abs();
+            residual = if row.value.is_nan() { f64::NAN } else { residual.max(row.value.abs()) };
+            matrix.lower[i] = [[row.lower]];
+            matrix.diagonal[i] = [[row.diagonal]];
+            matrix.upper[i] = [[row.upper]];
+            matrix.right[i] = [-row.value];
+        }
+        residual
+    }
+
+    fn advance(&mut self, step: &[[f64; 1]]) {
+        /// Radians a knot may turn in one step.
+        const CLAMP: f64 = 0.7;
+        let most = if self.map.is_linear() { f64::INFINITY } else { CLAMP };
+        for (i, [step]) in step.iter().enumerate() {
+            if step.is_finite() {
+                self.tangents[i] += step.clamp(-most, most);
+            }
+            self.keep_in_range(i);
+        }
+    }
+}
+
+/// Curvature times √(product of the two chords), as the direction of a vector: see
+/// `docs/decisions/0002-unknowns-and-residual.md`.
+struct Turned {
+    num: f64,
+    den: f64,
+}
+
+impl Turned {
+    fn new(end: EndCurvature, own: f64, other: f64) -> Self {
+        Turned { num: end.num * other, den: end.den * own }
+    }
+
+    /// The angle to turn by to come to the other vector: zero where curvatures agree, whatever
+    /// their size, and half a turn off where a curve would arrive forwards and leave backwards.
+    fn angle_to(&self, other: &Turned) -> f64 {
+        (self.den * other.num - self.num * other.den)
+            .atan2(self.den * other.den + self.num * other.num)
+    }
+
+    /// Derivative of the vector's angle.
+    fn angle_by(&self, change: &Turned) -> f64 {
+        (self.den * change.num - self.num * change.den)
+            / (self.den * self.den + self.num * self.num)
+    }
+}

@@ -1,0 +1,44 @@
+//! Curvature maps: all of a segment that the search for tangents sees (Bespoke section 2).
+
+use std::fmt;
+
+use crate::frame::{ChordAngles, EndCurvature};
+
+/// What a segment knows besides the tangents at its ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SegmentContext {
+    /// Length of the chord, in the run's units.
+    pub chord: f64,
+    /// Tension at the start and at the end, where given.
+    pub tension: [Option<f64>; 2],
+}
+
+impl SegmentContext {
+    /// A unit chord with nothing given.
+    pub const UNIT: SegmentContext = SegmentContext { chord: 1.0, tension: [None, None] };
+}
+
+/// Curvatures at a segment's ends for unit chord, and how they respond to the end tangents.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EndCurvatures {
+    /// At the start and at the end.
+    pub value: [EndCurvature; 2],
+    /// `by_angle[end][angle]`: derivative of numerator and denominator at that end by `theta0` or
+    /// `theta1`.
+    pub by_angle: [[EndCurvature; 2]; 2],
+}
+
+/// From end tangents to end curvatures.
+pub trait CurvatureMap: fmt::Debug + Send + Sync {
+    /// End curvatures for angles within ±[`limit`](Self::limit); finite numbers always.
+    fn curvatures(&self, angles: ChordAngles, context: &SegmentContext) -> EndCurvatures;
+
+    /// The largest magnitude of either angle that the map can deal with; infinite if it is defined
+    /// everywhere.
+    fn limit(&self) -> f64;
+
+    /// Whether it is linear with denominators of 1, so that one linear system gives the tangents.
+    fn is_linear(&self) -> bool {
+        false
+    }
+}
