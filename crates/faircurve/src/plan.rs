@@ -260,6 +260,9 @@ impl Plan {
         let frame = NormalFrame::of(contour)?;
         frame.check_curvatures(contour)?;
         let mut nodes = merge_coincident(contour, &joins, &frame);
+        if !spline.adapt(Join::G1).is_smooth() {
+            ignore_tangents(&mut nodes, &mut adapted);
+        }
         settle_given(&mut nodes, contour, &mut adapted)?;
         let mut plan = Plan {
             points: contour.knots.iter().map(|knot| knot.point).collect(),
@@ -696,6 +699,16 @@ fn merge_coincident(contour: &Contour, joins: &[ResolvedJoin], frame: &NormalFra
         head.tension[0] = tail.tension[0];
     }
     nodes
+}
+
+/// Drops the tangents given, for splines that have corners only.
+fn ignore_tangents(nodes: &mut [Node], adapted: &mut Vec<Adaptation>) {
+    for node in nodes {
+        if node.tangent_in.take().or(node.tangent_out.take()).is_some() {
+            let place = Place::Knot(node.first);
+            adapted.push(Adaptation { place, asked: "tangent", got: "ignored" });
+        }
+    }
 }
 
 /// Brings what is given at smooth knots into one form: the same tangent and curvature on both

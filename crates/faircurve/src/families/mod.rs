@@ -2,5 +2,10 @@
 
 pub mod catalog;
 pub mod euler;
+pub mod hobby;
+pub mod ikarus;
+pub mod lagrange;
+pub mod polygon;
+pub mod potrace;
 pub mod shapes;
 pub mod spiro;

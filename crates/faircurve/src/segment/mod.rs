@@ -433,7 +433,8 @@ impl Segment {
 
     /// Arc lengths at which curvature is zero (inflections), ascending; none on a line. On shapes
     /// other than lines and spirals they are found by a change of sign between 16 places in each
-    /// smooth stretch, so that two that are close together may be missed.
+    /// smooth stretch, so that two that are close together may be missed. Where two pieces of a
+    /// chain meet that bend opposite ways is an inflection, too.
     pub fn inflections(&self) -> Vec<f64> {
         match &self.shape {
             Shape::Line => Vec::new(),
@@ -443,7 +444,18 @@ impl Segment {
                 0.5,
             )),
             Shape::Unit(piece) => self.sign_changes(piece, |s| self.curvature(s)),
-            Shape::Chain(members) => places_in(members, Segment::inflections),
+            Shape::Chain(members) => {
+                let mut places = places_in(members, Segment::inflections);
+                let mut before = 0.0;
+                for pair in members.windows(2) {
+                    before += pair[0].length;
+                    if pair[0].curvature(pair[0].length) * pair[1].curvature(0.0) < 0.0 {
+                        places.push(before);
+                    }
+                }
+                places.sort_by(f64::total_cmp);
+                places
+            }
         }
     }
 

@@ -19,8 +19,9 @@ pub enum NaturalEnd {
     /// The end's angle is this function of the angle at the segment's other end, given with its
     /// derivative; it must be odd.
     Angle(fn(f64) -> (f64, f64)),
-    /// The curvature is this times that at the segment's other end (METAFONT's curl), unless the
-    /// knot has a curl of its own. For linear maps.
+    /// The curvature is this, at least 0, times that at the segment's other end (METAFONT's curl),
+    /// unless the knot has a curl of its own; but the end's angle is at most 4 times the other, as
+    /// in METAFONT. For linear maps.
     Curl(f64),
 }
 
@@ -191,15 +192,18 @@ impl<M: CurvatureMap> TangentSystem<'_, M> {
         let next = if !self.closed && i + 2 == n { 1.0 } else { -1.0 };
         match (self.equations[i], left, right) {
             (Equation::Continuous, Some(l), Some(r)) if self.map.is_linear() => {
-                // κ/c on both sides, times the longer chord: what stays between 0 and 1.
+                // κ/c on both sides, over the sum's response to the knot's own angle, so that the
+                // equation is in radians; the chords first over the longer one, which keeps their
+                // products in the range of numbers.
                 let (cl, cr) = (self.contexts[l].chord, self.contexts[r].chord);
-                let (wl, wr) = (cl.max(cr) / cl, cl.max(cr) / cr);
-                let (wl, wr) = (wl / (wl + wr), wr / (wl + wr));
                 let (left, right) = (&self.responses[l], &self.responses[r]);
+                let (wl, wr) = (cr / cl.max(cr), cl / cl.max(cr));
+                let own = left.by_angle[1][1].num * wl + right.by_angle[0][0].num * wr;
+                let (wl, wr) = (wl / own, wr / own);
                 Row {
                     value: right.value[0].num * wr - left.value[1].num * wl,
                     lower: -left.by_angle[1][0].num * wl,
-                    diagonal: left.by_angle[1][1].num * wl + right.by_angle[0][0].num * wr,
+                    diagonal: 1.0,
                     upper: right.by_angle[0][1].num * wr * next,
                 }
             }
@@ -250,15 +254,17 @@ impl<M: CurvatureMap> TangentSystem<'_, M> {
             }
             NaturalEnd::ZeroCurvature => return self.end_curvature(segment, end, 0.0),
             NaturalEnd::Curl(curl) => {
+                /// METAFONT's bound.
+                const LARGEST_RATIO: f64 = 4.0;
                 let response = &self.responses[segment];
                 // Between equal weights for small and large curls.
-                let (here, there) = (1.0 / (1.0 + curl.abs()), curl / (1.0 + curl.abs()));
-                let weighed = |a: EndCurvature, b: EndCurvature| here * a.num - there * b.num;
+                let (here, there) = (1.0 / (1.0 + curl), curl / (1.0 + curl));
                 let by = |angle: usize| {
-                    weighed(response.by_angle[end][angle], response.by_angle[1 - end][angle])
+                    here * response.by_angle[end][angle].num
+                        - there * response.by_angle[1 - end][angle].num
                 };
-                let value = weighed(response.value[end], response.value[1 - end]);
-                return (value, [by(0), by(1)]);
+                let ratio = (-by(1 - end) / by(end)).min(LARGEST_RATIO);
+                (own - ratio * other, [1.0, -ratio])
             }
         };
         (value, if end == 0 { [by_own, by_other] } else { [by_other, by_own] })

@@ -35,15 +35,14 @@ impl<R: TangentRule, S: SegmentShape> TwoParamSpline<R, S> {
                 self.shape.place(start, end, ends)
             })
             .collect();
-        let mut residual = tangents.residual();
-        if self.info.continuity() > 0 {
-            residual = residual.max(largest_jump(run, &segments, jump_of_direction));
-        }
+        let off = directions_off(run, &segments);
+        let mut residual = off.iter().copied().fold(tangents.residual(), f64::max);
         if self.keeps_curvature() {
             residual = residual.max(largest_jump(run, &segments, jump_of_curvature));
         }
         let unmet = |i: &usize| !(tangents.mismatch[*i] <= SOLVED);
-        let relaxed = (0..n).filter(unmet).map(|i| self.unmet(i)).collect();
+        let broken = (0..n).filter(|&i| off[i] > SOLVED).map(|i| broken(run, i));
+        let relaxed = broken.chain((0..n).filter(unmet).map(|i| self.unmet(i))).collect();
         let (adapted, iterations) = (tangents.adapted, tangents.iterations);
         RunSolution { segments, relaxed, adapted, iterations, residual, ..RunSolution::default() }
     }
@@ -63,6 +62,35 @@ impl<R: TangentRule, S: SegmentShape> TwoParamSpline<R, S> {
                 .to_owned(),
         }
     }
+}
+
+/// A knot at which the shape has no segment with the tangent found, or given.
+fn broken(run: &Run, knot: usize) -> Relaxation {
+    let (asked, got) = match run.knots[knot].join {
+        Join::Corner => ("tangent", "free"),
+        join => (join.name(), Join::Corner.name()),
+    };
+    let reason = "no segment of this shape leaves and arrives in such directions; \
+                  add a knot, or give another tangent";
+    Relaxation { place: Place::Knot(knot), asked, got, reason: reason.to_owned() }
+}
+
+/// How far the directions of the segments at each knot differ, or at the ends of an open run that
+/// of the segment from the one given, in radians.
+fn directions_off(run: &Run, segments: &[Segment]) -> Vec<f64> {
+    let n = run.knots.len();
+    let given = |i: usize, direction: f64| {
+        run.knots[i].tangent.map_or(0.0, |tangent| wrap_angle(direction - tangent).abs())
+    };
+    (0..n)
+        .map(|i| match (run.closed, i) {
+            (false, 0) => given(0, segments[0].direction(0.0)),
+            (false, i) if i == n - 1 => {
+                given(i, segments[i - 1].direction(segments[i - 1].length()))
+            }
+            _ => jump_of_direction(&segments[(i + n - 1) % n], &segments[i]),
+        })
+        .collect()
 }
 
 /// The largest jump of something at a knot where two segments meet.
