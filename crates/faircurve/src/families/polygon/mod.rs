@@ -60,3 +60,6 @@ impl Spline for Polygon {
         RunSolution { segments, ..RunSolution::default() }
     }
 }
+
+#[cfg(test)]
+mod tests;
