@@ -2,7 +2,7 @@
 //! go for it.
 //!
 //! ```sh
-//! cargo run --release -p faircurve --example two_param_rates -- [CASES] [SPLINE…] [--by-class]
+//! cargo run --release -p faircurve --example two_param_rates -- [CASES] [SPLINE…] [KEY=VALUE…] [--by-class]
 //! ```
 //!
 //! Classes: a circle with jitter, a walk that turns by less than 60° a knot, and uniform in a square;
@@ -12,7 +12,7 @@ use std::f64::consts::{PI, TAU};
 use std::io::Write;
 use std::time::Instant;
 
-use faircurve::catalog::{self, Claim, ENTRIES};
+use faircurve::catalog::{self, Claim, ENTRIES, Params};
 use faircurve::kurbo::{Point, Vec2};
 use faircurve::{Contour, Solution, Spline, Stage, Status, solve};
 
@@ -119,12 +119,15 @@ fn reversals(solution: &Solution) -> usize {
 
 fn main() -> std::io::Result<()> {
     let mut cases = 143;
-    let (mut names, mut by_class) = (Vec::new(), false);
+    let (mut names, mut params, mut by_class) = (Vec::new(), Params::new(), false);
     for arg in std::env::args().skip(1) {
         match arg.parse() {
             Ok(count) => cases = count,
             Err(_) if arg == "--by-class" => by_class = true,
-            Err(_) => names.push(arg),
+            Err(_) => match arg.split_once('=') {
+                Some((key, value)) => params.set(key, value),
+                None => names.push(arg),
+            },
         }
     }
     let out = &mut std::io::stdout().lock();
@@ -146,7 +149,7 @@ fn main() -> std::io::Result<()> {
         if !two || !(names.is_empty() || names.iter().any(|name| name == info.name)) {
             continue;
         }
-        let spline = catalog::spline(info.name).expect("a spline of the catalogue");
+        let Ok(spline) = catalog::build(info.name, &params) else { continue };
         let mut whole = Tally::default();
         for (s, shape) in SHAPES.into_iter().enumerate() {
             for closed in [false, true] {

@@ -52,13 +52,60 @@ impl BiParabola {
         BiParabola { alpha, beta, phi, mu, leg: 2.0 / along, bend }
     }
 
-    /// κ = sign(sin α)·(|sin 2α| + |sin 2β|)/(4 L cos³ α) at the start, and likewise at the end.
-    fn curvatures(&self) -> [EndCurvature; 2] {
-        [self.alpha, self.beta].map(|angle| {
-            let (sin, cos) = sin_cos(angle);
-            EndCurvature { num: self.bend.copysign(sin), den: 4.0 * self.leg * cos * cos * cos }
-        })
+    /// κ = sign(sin α)·(|sin 2α| + |sin 2β|)/(4 L cos³ α) at the start, and likewise at the end; with
+    /// derivatives from those of the equation for φ.
+    fn curvatures(&self) -> EndCurvatures {
+        let BiParabola { alpha, beta, phi, mu, leg, bend } = *self;
+        let (sin_p, cos_p) = sin_cos(2.0 * alpha);
+        let (sin_q, cos_q) = sin_cos(2.0 * beta);
+        let (p, q) = (sin_p.abs(), sin_q.abs());
+        let (p_by_alpha, q_by_beta) = (2.0 * cos_p * sign(sin_p), 2.0 * cos_q * sign(sin_q));
+        let square = (bend * bend).max(f64::MIN_POSITIVE);
+        let (mu_by_alpha, mu_by_beta) = (p_by_alpha * q / square, -p * q_by_beta / square);
+        // φ + 2θ₀ = 2α − φ and 2θ₁ − φ = 2β + φ.
+        let (sin_0, cos_0) = sin_cos(2.0 * alpha - phi);
+        let (sin_1, cos_1) = sin_cos(2.0 * beta + phi);
+        let (sin_phi, cos_phi) = sin_cos(phi);
+        let sum = sin_0 + sin_1;
+        let by_phi = 3.0 * cos_phi - mu * cos_0 - (1.0 - mu) * cos_1
+            - (mu_by_alpha - mu_by_beta) * sum;
+        let by_angle = [
+            -2.0 * mu * cos_0 - mu_by_alpha * sum,
+            2.0 * (1.0 - mu) * cos_1 - mu_by_beta * sum,
+        ];
+        let slopes = [0, 1].map(|angle| {
+            let is = |wanted: usize| if angle == wanted { 1.0 } else { 0.0 };
+            let phi_by = finite(-by_angle[angle] / by_phi);
+            let (alpha_by, beta_by) = (phi_by + is(0), is(1) - phi_by);
+            let mu_by = mu_by_alpha * alpha_by + mu_by_beta * beta_by;
+            let along_by = -3.0 * sin_phi * phi_by + mu_by * (cos_0 - cos_1)
+                - mu * sin_0 * (phi_by + 2.0 * is(0))
+                - (1.0 - mu) * sin_1 * (2.0 * is(1) - phi_by);
+            let leg_by = -0.5 * leg * leg * along_by;
+            let bend_by = p_by_alpha * alpha_by + q_by_beta * beta_by;
+            [(alpha, alpha_by), (beta, beta_by)].map(|(angle, by)| {
+                let (sin, cos) = sin_cos(angle);
+                let den = 4.0 * cos * cos * (leg_by * cos - 3.0 * leg * sin * by);
+                EndCurvature { num: finite(bend_by * sign(sin)), den: finite(den) }
+            })
+        });
+        EndCurvatures {
+            value: [alpha, beta].map(|angle| {
+                let (sin, cos) = sin_cos(angle);
+                EndCurvature { num: bend * sign(sin), den: 4.0 * leg * cos * cos * cos }
+            }),
+            by_angle: [0, 1].map(|end| [slopes[0][end], slopes[1][end]]),
+        }
     }
+}
+
+fn sign(x: f64) -> f64 {
+    1.0f64.copysign(x)
+}
+
+/// At its kinks the map has no derivative: none, or a steep one.
+fn finite(slope: f64) -> f64 {
+    if slope.is_nan() { 0.0 } else { slope.clamp(-1e6, 1e6) }
 }
 
 /// μ, and the sum that it divides.
@@ -68,26 +115,10 @@ fn share(alpha: f64, beta: f64) -> (f64, f64) {
 }
 
 impl CurvatureMap for BiParabolas {
-    /// Derivatives are differences: the map has kinks wherever a parabola vanishes (where the bi-parabola
-    /// is a single one), at which the curvature at the vanishing one's end changes its sign.
+    /// The map has kinks wherever a parabola vanishes (where the bi-parabola is a single one), at which
+    /// the curvature at the vanishing one's end changes its sign.
     fn curvatures(&self, angles: ChordAngles, _context: &SegmentContext) -> EndCurvatures {
-        const STEP: f64 = 1e-7;
-        let ChordAngles { theta0, theta1 } = angles;
-        let at = |a: f64, b: f64| {
-            BiParabola::new(ChordAngles::new(theta0 + a, theta1 + b)).curvatures()
-        };
-        let value = at(0.0, 0.0);
-        let slopes = [(STEP, 0.0), (0.0, STEP)].map(|(a, b)| {
-            let (up, down) = (at(a, b), at(-a, -b));
-            [0, 1].map(|end| EndCurvature {
-                num: (up[end].num - down[end].num) / (2.0 * STEP),
-                den: (up[end].den - down[end].den) / (2.0 * STEP),
-            })
-        });
-        EndCurvatures {
-            value,
-            by_angle: [0, 1].map(|end| [slopes[0][end], slopes[1][end]]),
-        }
+        BiParabola::new(angles).curvatures()
     }
 
     fn limit(&self) -> f64 {

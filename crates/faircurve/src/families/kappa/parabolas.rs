@@ -7,7 +7,7 @@ use kurbo::{PathSeg, Point, QuadBez, Vec2};
 
 use crate::frame::{ChordAngles, EndCurvature, direction, wrap_angle};
 use crate::numeric::block_tridiagonal::BlockTridiagonal;
-use crate::numeric::roots::{horner, monotone_root};
+use crate::numeric::roots::horner;
 use crate::plan::Run;
 use crate::segment::{Measured, Segment, UnitBezier};
 use crate::spline::Stage;
@@ -27,48 +27,69 @@ pub(super) struct Parabolas {
     lambda: Vec<f64>,
     /// The parameter of the vertex, where the knot is.
     vertex: Vec<f64>,
-    /// How far each knot's conditions are from being met.
-    mismatch: Vec<f64>,
+    /// How far each knot is from being a vertex, and the joint after it from equal curvatures.
+    pub(super) mismatch: Vec<f64>,
     iterations: usize,
 }
 
 impl Parabolas {
     /// Finds them by the iteration of the paper's section 4: joints of equal curvature from the
     /// control points, vertices from the joints, and control points from both, by a linear system.
+    ///
+    /// It sees rounded numbers, so that copies which are moved, turned or scaled take the same course;
+    /// where it settles, it goes on with the exact ones. Parabolas always pass through their knots.
     pub(super) fn solve(run: &Run, most: usize) -> Parabolas {
-        /// In units of the run's size, which is at most 1.
-        const SETTLED: f64 = 4e-16;
-        let n = run.knots.len();
-        let mut parabolas = Parabolas {
-            middle: run.knots.iter().map(|knot| knot.point.to_vec2()).collect(),
-            lambda: vec![0.5; run.segment_count()],
-            vertex: vec![0.5; n],
-            mismatch: vec![0.0; n],
-            iterations: 0,
-        };
-        if !run.closed {
-            for (end, segment, lambda) in [(0, 0, 0.0), (n - 1, n - 2, 1.0)] {
-                if run.knots[end].tangent.is_none() {
-                    parabolas.lambda[segment] = lambda;
-                }
-            }
-        }
-        let mut matrix = BlockTridiagonal::new(n, run.closed);
-        let mut least = f64::INFINITY;
-        let mut waited = 0;
-        while parabolas.iterations < most {
-            parabolas.find_joints(run);
-            parabolas.find_vertices(run);
-            let moved = parabolas.find_middles(run, &mut matrix);
-            parabolas.iterations += 1;
-            waited = if moved < 0.9 * least { 0 } else { waited + 1 };
-            least = least.min(moved);
-            if moved <= SETTLED || (least < 1e-13 && waited > 8) {
-                break;
-            }
+        /// Where the rounding of the numbers begins.
+        const NEAR: f64 = 1e-7;
+        let rounded = rounded(run);
+        let mut parabolas = Parabolas::new(&rounded);
+        let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
+        let moved = parabolas.iterate(&rounded, &mut matrix, most, NEAR);
+        parabolas.find_middles(run, &mut matrix);
+        if moved <= NEAR {
+            let size = (0..run.segment_count()).map(|i| run.chord(i).hypot()).fold(0.0, f64::max);
+            parabolas.iterate(run, &mut matrix, most, 1e-15 * size);
         }
         parabolas.measure(run);
         parabolas
+    }
+
+    fn new(run: &Run) -> Parabolas {
+        let n = run.knots.len();
+        let mut lambda = vec![0.5; run.segment_count()];
+        if Self::is_free(run, 0) {
+            lambda[0] = 0.0;
+        }
+        if Self::is_free(run, n - 1) {
+            lambda[n - 2] = 1.0;
+        }
+        Parabolas {
+            middle: run.knots.iter().map(|knot| knot.point.to_vec2()).collect(),
+            lambda,
+            vertex: vec![0.5; n],
+            mismatch: vec![0.0; n],
+            iterations: 0,
+        }
+    }
+
+    /// Steps of the iteration until control points move by at most `settled`; returns how far the last
+    /// one moved them.
+    fn iterate(
+        &mut self,
+        run: &Run,
+        matrix: &mut BlockTridiagonal<2>,
+        most: usize,
+        settled: f64,
+    ) -> f64 {
+        let mut moved = f64::INFINITY;
+        let last = self.iterations + most;
+        while self.iterations < last && moved > settled {
+            self.find_joints(run);
+            self.find_vertices(run);
+            moved = self.find_middles(run, matrix);
+            self.iterations += 1;
+        }
+        moved
     }
 
     fn is_free(run: &Run, knot: usize) -> bool {
@@ -131,7 +152,7 @@ impl Parabolas {
                 3.0 * chord.dot(c0),
                 chord.hypot2(),
             ];
-            self.vertex[i] = monotone_root(|t| horner(&cubic, t), 0.0, 1.0).unwrap_or(0.5);
+            self.vertex[i] = vertex(&cubic, self.vertex[i]);
         }
     }
 
@@ -195,7 +216,8 @@ impl Parabolas {
         before * (1.0 - t) + after * t
     }
 
-    /// What doesn't hold: greatest curvature at the knots, equal curvature at the joints.
+    /// What doesn't hold: greatest curvature at the knots, equal curvature at the joints. Where a
+    /// vertex has met a joint it may lie beyond.
     fn measure(&mut self, run: &Run) {
         let n = self.middle.len();
         for i in 0..n {
@@ -203,9 +225,11 @@ impl Parabolas {
             if !is_end(run, i) {
                 let [before, after] = self.legs(run, i);
                 let (velocity, bend) = (self.at_vertex(run, i), after - before);
-                let scale = velocity.hypot() * bend.hypot();
-                if scale > 0.0 {
-                    off = (velocity.dot(bend) / scale).abs();
+                let cos = velocity.dot(bend) / (velocity.hypot() * bend.hypot());
+                let t = self.vertex[i];
+                let lies_beyond = (t < AT_JOINT && cos > 0.0) || (1.0 - t < AT_JOINT && cos < 0.0);
+                if cos.is_finite() && !lies_beyond {
+                    off = cos.abs();
                 }
             }
             let next = (i + 1) % n;
@@ -256,7 +280,7 @@ impl Parabolas {
             .collect();
         Tangents {
             ends,
-            mismatch: self.mismatch.clone(),
+            mismatch: vec![0.0; n],
             adapted: (0..n)
                 .filter(|&i| run.knots[i].curvature.is_some())
                 .map(ignored_curvature)
@@ -300,6 +324,53 @@ impl Parabolas {
             })
             .collect()
     }
+}
+
+/// The root of the cubic between 0 and 1, where it rises from below zero to above, by Newton's method
+/// from a guess, halving where that leaves the bracket.
+fn vertex(cubic: &[f64; 4], guess: f64) -> f64 {
+    /// Far more than needed.
+    const MOST_STEPS: usize = 80;
+    let (mut low, mut high, mut t) = (0.0, 1.0, guess);
+    for _ in 0..MOST_STEPS {
+        let value = horner(cubic, t);
+        if value == 0.0 {
+            break;
+        } else if value < 0.0 {
+            low = t;
+        } else {
+            high = t;
+        }
+        let slope = cubic[1] + t * (2.0 * cubic[2] + t * 3.0 * cubic[3]);
+        let newton = t - value / slope;
+        let next = if newton > low && newton < high { newton } else { (low + high) / 2.0 };
+        if (next - t).abs() <= f64::EPSILON * t {
+            return next;
+        }
+        t = next;
+    }
+    t
+}
+
+/// A vertex is at a joint if its parameter is as near to 0 or 1 as this.
+const AT_JOINT: f64 = 1e-9;
+
+/// The same run with its first chord along +x and its longest 1 long, its numbers rounded.
+fn rounded(run: &Run) -> Run {
+    const FINENESS: f64 = 1.0 / (1u64 << 26) as f64;
+    let fixed = |number: f64| (number / FINENESS).round() * FINENESS;
+    let first = run.chord(0);
+    let longest = (0..run.segment_count()).map(|i| run.chord(i).hypot()).fold(0.0, f64::max);
+    let unit = first * (longest / first.hypot());
+    let (start, squared) = (run.knots[0].point, unit.hypot2());
+    let mut rounded = run.clone();
+    for knot in &mut rounded.knots {
+        let along = knot.point - start;
+        knot.point =
+            Point::new(fixed(unit.dot(along) / squared), fixed(unit.cross(along) / squared));
+        knot.tangent = knot.tangent.map(|tangent| fixed(wrap_angle(tangent - direction(first))));
+    }
+    rounded
 }
 
 fn is_end(run: &Run, knot: usize) -> bool {
