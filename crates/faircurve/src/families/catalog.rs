@@ -8,11 +8,20 @@ use std::fmt;
 use crate::outline::Join;
 use crate::spline::Spline;
 
-use super::{euler, hobby, ikarus, lagrange, polygon, spiro};
+use super::{bespoke, euler, hobby, ikarus, kappa, lagrange, polygon, spiro};
 
 /// Every spline, in the order in which lists show them.
-pub const ENTRIES: &[&SplineInfo] =
-    &[&spiro::INFO, &euler::INFO, &hobby::INFO, &ikarus::INFO, &lagrange::INFO, &polygon::INFO];
+#[rustfmt::skip]
+pub const ENTRIES: &[&SplineInfo] = &[
+    &spiro::INFO,
+    &euler::INFO,
+    &hobby::INFO,
+    &bespoke::INFO,
+    &kappa::INFO,
+    &ikarus::INFO,
+    &lagrange::INFO,
+    &polygon::INFO,
+];
 
 /// A catalogue row: what a spline is called, what it takes and what it claims.
 #[derive(Debug)]

@@ -1,9 +1,11 @@
 //! The splines, one folder each, and the catalogue that names them.
 
+pub mod bespoke;
 pub mod catalog;
 pub mod euler;
 pub mod hobby;
 pub mod ikarus;
+pub mod kappa;
 pub mod lagrange;
 pub mod polygon;
 pub mod potrace;

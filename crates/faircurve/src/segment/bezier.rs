@@ -11,22 +11,27 @@ pub struct UnitBezier {
     exact: PathSeg,
     /// The same as a cubic, for evaluating.
     cubic: [Complex64; 4],
+    /// Its velocity, as a quadratic Bézier: short arms are known to their own rounding here.
+    velocity: [Complex64; 3],
 }
 
 impl UnitBezier {
     /// From a Bézier that starts at (0, 0) and ends at (1, 0).
     pub fn new(bezier: PathSeg) -> Self {
         let CubicBez { p0, p1, p2, p3 } = bezier.to_cubic();
-        UnitBezier { exact: bezier, cubic: [p0, p1, p2, p3].map(complex) }
+        let velocity = [p1 - p0, p2 - p1, p3 - p2].map(|leg| Complex64::new(leg.x, leg.y) * 3.0);
+        UnitBezier { exact: bezier, cubic: [p0, p1, p2, p3].map(complex), velocity }
     }
 
     /// The cubic whose arms, along the end tangents, have these lengths; negative ones point
     /// backwards. `start` and `end` are the directions of the tangents.
     pub fn from_arms(start: f64, end: f64, arms: [f64; 2]) -> Self {
-        let p1 = Complex64::from_polar(1.0, start) * arms[0];
-        let p2 = 1.0 - Complex64::from_polar(1.0, end) * arms[1];
-        let cubic = CubicBez::new(Point::ORIGIN, point(p1), point(p2), Point::new(1.0, 0.0));
-        UnitBezier::new(PathSeg::Cubic(cubic))
+        let first = Complex64::from_polar(1.0, start) * arms[0];
+        let last = Complex64::from_polar(1.0, end) * arms[1];
+        let (p1, p2) = (point(first), point(1.0 - last));
+        let cubic = CubicBez::new(Point::ORIGIN, p1, p2, Point::new(1.0, 0.0));
+        let velocity = [first, 1.0 - first - last, last].map(|leg| leg * 3.0);
+        UnitBezier { velocity, ..UnitBezier::new(PathSeg::Cubic(cubic)) }
     }
 }
 
@@ -47,8 +52,7 @@ impl ParametricCurve for UnitBezier {
     }
 
     fn velocity_series(&self, u: f64) -> [Complex64; 5] {
-        let [p0, p1, p2, p3] = self.cubic;
-        let [a, b, c] = [p1 - p0, p2 - p1, p3 - p2].map(|d| d * 3.0);
+        let [a, b, c] = self.velocity;
         let v = 1.0 - u;
         let (d0, d1) = (b - a, c - b);
         [
@@ -61,9 +65,9 @@ impl ParametricCurve for UnitBezier {
     }
 
     fn velocity(&self, u: f64) -> Complex64 {
-        let [p0, p1, p2, p3] = self.cubic;
+        let [a, b, c] = self.velocity;
         let v = 1.0 - u;
-        ((p1 - p0) * (v * v) + (p2 - p1) * (2.0 * v * u) + (p3 - p2) * (u * u)) * 3.0
+        a * (v * v) + b * (2.0 * v * u) + c * (u * u)
     }
 
     fn bezier(&self, from: f64, to: f64) -> Option<PathSeg> {

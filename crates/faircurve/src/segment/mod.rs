@@ -136,6 +136,22 @@ impl Segment {
         Segment { start, end, shape: Shape::Unit(piece), length, heading: direction(chord) }
     }
 
+    /// The same, with the way from `start` to `end` given: where it is short, better known than the
+    /// points know it.
+    pub(crate) fn unit_curve_along(
+        start: Point,
+        end: Point,
+        curve: Arc<dyn UnitCurve>,
+        chord: Vec2,
+    ) -> Self {
+        let placed = Segment::unit_curve(start, end, curve);
+        if placed.is_line() {
+            return placed;
+        }
+        let length = placed.length * (chord.hypot() / (end - start).hypot());
+        Segment { length, heading: direction(chord), ..placed }
+    }
+
     /// A Bézier, exactly; a straight line if it is one or ends where it starts.
     pub fn bezier(bezier: PathSeg) -> Self {
         let (start, end) = (bezier.start(), bezier.end());

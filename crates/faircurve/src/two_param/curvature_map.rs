@@ -11,11 +11,17 @@ pub struct SegmentContext {
     pub chord: f64,
     /// Tension at the start and at the end, where given.
     pub tension: [Option<f64>; 2],
+    /// Whether the direction at the start and at the end is given.
+    pub given_direction: [bool; 2],
 }
 
 impl SegmentContext {
     /// A unit chord with nothing given.
-    pub const UNIT: SegmentContext = SegmentContext { chord: 1.0, tension: [None, None] };
+    pub const UNIT: SegmentContext = SegmentContext {
+        chord: 1.0,
+        tension: [None, None],
+        given_direction: [false, false],
+    };
 }
 
 /// Curvatures at a segment's ends for unit chord, and how they respond to the end tangents.
@@ -39,6 +45,12 @@ pub trait CurvatureMap: fmt::Debug + Send + Sync {
 
     /// Whether it is linear with denominators of 1, so that one linear system gives the tangents.
     fn is_linear(&self) -> bool {
+        false
+    }
+
+    /// Whether it has period π in both angles: the curve is the same, while at the end whose tangent
+    /// is turned numerator and denominator change their sign (Bespoke section 2.2).
+    fn is_periodic(&self) -> bool {
         false
     }
 }

@@ -24,7 +24,8 @@ impl<R: TangentRule, S: SegmentShape> TwoParamSpline<R, S> {
         TwoParamSpline { info, rule, shape }
     }
 
-    fn draw(&self, run: &Run, tangents: Tangents) -> RunSolution {
+    /// The curve through the knots of a run with these tangents.
+    pub(crate) fn draw(&self, run: &Run, tangents: Tangents) -> RunSolution {
         let n = run.knots.len();
         let segments: Vec<Segment> = tangents
             .ends
@@ -35,74 +36,101 @@ impl<R: TangentRule, S: SegmentShape> TwoParamSpline<R, S> {
                 self.shape.place(start, end, ends)
             })
             .collect();
-        let off = directions_off(run, &segments);
-        let mut residual = off.iter().copied().fold(tangents.residual(), f64::max);
-        if self.keeps_curvature() {
-            residual = residual.max(largest_jump(run, &segments, jump_of_curvature));
+        self.assess(run, tangents, segments)
+    }
+
+    /// What holds of a drawn run: knots whose equation isn't met, and those where the segments turn out
+    /// not to fit together, are relaxed.
+    pub(crate) fn assess(
+        &self,
+        run: &Run,
+        tangents: Tangents,
+        segments: Vec<Segment>,
+    ) -> RunSolution {
+        let n = run.knots.len();
+        let Tangents { adapted, iterations, stage, mismatch, .. } = tangents;
+        let mut relaxed = Vec::new();
+        let mut residual = 0.0f64;
+        for (i, mismatch) in mismatch.into_iter().enumerate() {
+            let mut off = if mismatch.is_nan() { f64::MAX } else { mismatch };
+            let mut turns = 0.0f64;
+            if run.closed || (i > 0 && i + 1 < n) {
+                let (before, after) = (&segments[(i + n - 1) % n], &segments[i]);
+                if self.info.continuity() > 0 {
+                    turns = jump_of_direction(before, after);
+                }
+                if self.keeps_curvature() {
+                    off = off.max(jump_of_curvature(before, after));
+                }
+            } else if let Some(tangent) = run.knots[i].tangent {
+                turns = if i == 0 {
+                    off_direction(tangent, segments[0].direction(0.0))
+                } else {
+                    let last = &segments[segments.len() - 1];
+                    off_direction(tangent, last.direction(last.length()))
+                };
+            }
+            if turns <= SOLVED && off <= SOLVED {
+                residual = residual.max(turns).max(off);
+            } else {
+                relaxed.push(self.unmet(run, i, turns <= SOLVED));
+            }
         }
-        let unmet = |i: &usize| !(tangents.mismatch[*i] <= SOLVED);
-        let broken = (0..n).filter(|&i| off[i] > SOLVED).map(|i| broken(run, i));
-        let relaxed = broken.chain((0..n).filter(unmet).map(|i| self.unmet(i))).collect();
-        let (adapted, iterations) = (tangents.adapted, tangents.iterations);
-        RunSolution { segments, relaxed, adapted, iterations, residual, ..RunSolution::default() }
+        RunSolution { segments, relaxed, adapted, iterations, residual, stage }
     }
 
     fn keeps_curvature(&self) -> bool {
         self.info.continuity() >= 2 && self.shape.keeps_curvature()
     }
 
-    /// A knot whose equation isn't met; its tangent is continuous all the same.
-    fn unmet(&self, knot: usize) -> Relaxation {
-        Relaxation {
-            place: Place::Knot(knot),
-            asked: self.default_join().name(),
-            got: Join::G1.name(),
-            reason: "the curve can't have the same curvature on both sides of this knot; \
-                     move it or a neighbour, or add a knot where the curve turns most"
-                .to_owned(),
-        }
+    /// A knot whose equation isn't met, or where the curve even turns round.
+    fn unmet(&self, run: &Run, knot: usize, is_smooth: bool) -> Relaxation {
+        let is_end = !run.closed && (knot == 0 || knot + 1 == run.knots.len());
+        let own = self.default_join().name();
+        let (asked, got, reason) = match (is_end, is_smooth) {
+            (false, true) => (
+                own,
+                Join::G1.name(),
+                "the curve can't have the same curvature on both sides of this knot; move it or a \
+                 neighbour, or add a knot where the curve turns most",
+            ),
+            (false, false) => (
+                own,
+                Join::Corner.name(),
+                "the curve turns back here, in a cusp; move the knot or a neighbour, or add a knot \
+                 where it turns most",
+            ),
+            (true, false) if run.knots[knot].join == Join::Corner => (
+                "tangent",
+                "free",
+                "the direction given here is too far from that to the next knot; add a knot where \
+                 the curve turns most",
+            ),
+            (true, false) => (
+                run.knots[knot].join.name(),
+                Join::Corner.name(),
+                "the direction here is too far from that to the next knot; add a knot where the \
+                 curve turns most",
+            ),
+            (true, true) => (
+                "end",
+                "free",
+                "no curve was found that ends as this spline's curves do; move the end or the knot \
+                 next to it",
+            ),
+        };
+        Relaxation { place: Place::Knot(knot), asked, got, reason: reason.to_owned() }
     }
-}
-
-/// A knot at which the shape has no segment with the tangent found, or given.
-fn broken(run: &Run, knot: usize) -> Relaxation {
-    let (asked, got) = match run.knots[knot].join {
-        Join::Corner => ("tangent", "free"),
-        join => (join.name(), Join::Corner.name()),
-    };
-    let reason = "no segment of this shape leaves and arrives in such directions; \
-                  add a knot, or give another tangent";
-    Relaxation { place: Place::Knot(knot), asked, got, reason: reason.to_owned() }
-}
-
-/// How far the directions of the segments at each knot differ, or at the ends of an open run that
-/// of the segment from the one given, in radians.
-fn directions_off(run: &Run, segments: &[Segment]) -> Vec<f64> {
-    let n = run.knots.len();
-    let given = |i: usize, direction: f64| {
-        run.knots[i].tangent.map_or(0.0, |tangent| wrap_angle(direction - tangent).abs())
-    };
-    (0..n)
-        .map(|i| match (run.closed, i) {
-            (false, 0) => given(0, segments[0].direction(0.0)),
-            (false, i) if i == n - 1 => {
-                given(i, segments[i - 1].direction(segments[i - 1].length()))
-            }
-            _ => jump_of_direction(&segments[(i + n - 1) % n], &segments[i]),
-        })
-        .collect()
-}
-
-/// The largest jump of something at a knot where two segments meet.
-fn largest_jump(run: &Run, segments: &[Segment], jump: fn(&Segment, &Segment) -> f64) -> f64 {
-    let n = run.knots.len();
-    let interior = if run.closed { 0..n } else { 1..n - 1 };
-    interior.map(|i| jump(&segments[(i + n - 1) % n], &segments[i])).fold(0.0, f64::max)
 }
 
 /// Of the direction of travel, in radians.
 fn jump_of_direction(before: &Segment, after: &Segment) -> f64 {
-    wrap_angle(after.direction(0.0) - before.direction(before.length())).abs()
+    off_direction(before.direction(before.length()), after.direction(0.0))
+}
+
+/// Radians between two directions.
+fn off_direction(a: f64, b: f64) -> f64 {
+    wrap_angle(b - a).abs()
 }
 
 /// Of curvature times the harmonic mean of the chords; near a cusp, where that product is large, of
@@ -138,7 +166,7 @@ impl<R: TangentRule, S: SegmentShape> Spline for TwoParamSpline<R, S> {
 
     fn solve_plainly(&self, run: &Run) -> Option<RunSolution> {
         let solved = self.draw(run, self.rule.tangents(run));
-        (solved.residual <= SOLVED).then_some(solved)
+        solved.relaxed.is_empty().then_some(solved)
     }
 
     fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution {

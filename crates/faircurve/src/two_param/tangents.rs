@@ -6,7 +6,7 @@ use super::curvature_map::SegmentContext;
 use super::shape::SegmentEnds;
 use crate::frame::{ChordAngles, direction, wrap_angle};
 use crate::plan::Run;
-use crate::spline::{Adaptation, Effort, Place};
+use crate::spline::{Adaptation, Effort, Place, Stage};
 
 /// A way to find the tangents of a run.
 pub trait TangentRule: fmt::Debug + Send + Sync {
@@ -31,6 +31,8 @@ pub struct Tangents {
     pub adapted: Vec<Adaptation>,
     /// Newton steps taken.
     pub iterations: usize,
+    /// How far the rule had to go.
+    pub stage: Stage,
 }
 
 impl Tangents {
@@ -54,7 +56,7 @@ impl Tangents {
             .collect();
         let adapted =
             (0..n).filter(|&i| run.knots[i].curvature.is_some()).map(ignored_curvature).collect();
-        Tangents { ends, mismatch: vec![0.0; n], adapted, iterations: 0 }
+        Tangents { ends, mismatch: vec![0.0; n], adapted, ..Tangents::default() }
     }
 
     /// The largest mismatch.
@@ -68,9 +70,14 @@ impl Tangents {
 /// The chord and the tensions of a segment.
 pub(crate) fn context(run: &Run, segment: usize) -> SegmentContext {
     let (start, end) = (&run.knots[segment], &run.knots[(segment + 1) % run.knots.len()]);
+    let (is_first, is_last) = (segment == 0, segment + 1 == run.segment_count());
     SegmentContext {
         chord: run.chord(segment).hypot(),
         tension: [start.tension[1], end.tension[0]],
+        given_direction: [
+            !run.closed && is_first && start.tangent.is_some(),
+            !run.closed && is_last && end.tangent.is_some(),
+        ],
     }
 }
 
