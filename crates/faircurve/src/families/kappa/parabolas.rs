@@ -29,6 +29,10 @@ pub(super) struct Parabolas {
     vertex: Vec<f64>,
     /// How far each knot is from being a vertex, and the joint after it from equal curvatures.
     pub(super) mismatch: Vec<f64>,
+    /// Knots that aren't at a vertex.
+    given_up: Vec<bool>,
+    /// Whether joints stay where they are.
+    fixed_joints: bool,
     iterations: usize,
 }
 
@@ -38,20 +42,71 @@ impl Parabolas {
     ///
     /// It sees rounded numbers, so that copies which are moved, turned or scaled take the same course;
     /// where it settles, it goes on with the exact ones. Parabolas always pass through their knots.
+    ///
+    /// Knots whose parabolas don't settle are given up, the worst first: they lie in the middle of the
+    /// parameter, not at the vertex.
     pub(super) fn solve(run: &Run, most: usize) -> Parabolas {
         /// Where the rounding of the numbers begins.
         const NEAR: f64 = 1e-7;
+        /// Steps after some have been given up.
+        const AFTER: usize = 250;
+        let n = run.knots.len();
         let rounded = rounded(run);
         let mut parabolas = Parabolas::new(&rounded);
-        let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
-        let moved = parabolas.iterate(&rounded, &mut matrix, most, NEAR);
-        parabolas.find_middles(run, &mut matrix);
-        if moved <= NEAR {
-            let size = (0..run.segment_count()).map(|i| run.chord(i).hypot()).fold(0.0, f64::max);
-            parabolas.iterate(run, &mut matrix, most, 1e-15 * size);
+        let mut matrix = BlockTridiagonal::new(n, run.closed);
+        let mut moved = parabolas.iterate(&rounded, &mut matrix, most, NEAR);
+        let mut count = 1;
+        loop {
+            let met = parabolas.give_up_those_at_joints(&rounded);
+            if moved <= NEAR && !met {
+                break;
+            } else if count >= n {
+                // Then the joints are what doesn't settle.
+                parabolas.fix_joints(&rounded);
+                break;
+            } else if !met {
+                parabolas.measure(&rounded);
+                parabolas.give_up(&rounded, count);
+                count *= 4;
+            }
+            moved = parabolas.iterate(&rounded, &mut matrix, AFTER, NEAR);
         }
+        parabolas.find_middles(run, &mut matrix);
+        let size = (0..run.segment_count()).map(|i| run.chord(i).hypot()).fold(0.0, f64::max);
+        parabolas.iterate(run, &mut matrix, most, 1e-15 * size);
         parabolas.measure(run);
         parabolas
+    }
+
+    /// Gives up the vertices of so many knots, those furthest from them.
+    fn give_up(&mut self, run: &Run, count: usize) {
+        let n = self.middle.len();
+        let mut worst: Vec<usize> =
+            (0..n).filter(|&i| !is_end(run, i) && !self.given_up[i]).collect();
+        worst.sort_by(|&i, &j| self.mismatch[j].total_cmp(&self.mismatch[i]));
+        for i in worst.into_iter().take(count) {
+            (self.given_up[i], self.vertex[i]) = (true, 0.5);
+        }
+    }
+
+    /// Gives up the vertices that have come so close to a joint that curvature would jump there within
+    /// a thousandth of the parabola, and the control points hardly be determined; whether there are any.
+    fn give_up_those_at_joints(&mut self, run: &Run) -> bool {
+        const CLOSE: f64 = 1e-3;
+        let mut any = false;
+        for i in (0..self.middle.len()).filter(|&i| !is_end(run, i)) {
+            if !(CLOSE..=1.0 - CLOSE).contains(&self.vertex[i]) {
+                (self.given_up[i], self.vertex[i]) = (true, 0.5);
+                any = true;
+            }
+        }
+        any
+    }
+
+    /// Puts every knot and joint in the middle: what has a solution whatever the knots.
+    fn fix_joints(&mut self, run: &Run) {
+        *self = Parabolas { fixed_joints: true, iterations: self.iterations, ..Parabolas::new(run) };
+        self.give_up(run, self.middle.len());
     }
 
     fn new(run: &Run) -> Parabolas {
@@ -68,6 +123,8 @@ impl Parabolas {
             lambda,
             vertex: vec![0.5; n],
             mismatch: vec![0.0; n],
+            given_up: vec![false; n],
+            fixed_joints: false,
             iterations: 0,
         }
     }
@@ -122,6 +179,9 @@ impl Parabolas {
 
     /// λ from equal curvature at the joints.
     fn find_joints(&mut self, run: &Run) {
+        if self.fixed_joints {
+            return;
+        }
         let n = self.middle.len();
         let old = self.lambda.clone();
         for (i, lambda) in old.into_iter().enumerate() {
@@ -139,7 +199,7 @@ impl Parabolas {
 
     /// The parameters of the vertices, from the ends of the parabolas.
     fn find_vertices(&mut self, run: &Run) {
-        for i in (0..self.middle.len()).filter(|&i| !is_end(run, i)) {
+        for i in (0..self.middle.len()).filter(|&i| !is_end(run, i) && !self.given_up[i]) {
             let [before, after] = self.legs(run, i);
             let knot = run.knots[i].point.to_vec2();
             let c0 = self.middle[i] - before - knot;
@@ -216,8 +276,7 @@ impl Parabolas {
         before * (1.0 - t) + after * t
     }
 
-    /// What doesn't hold: greatest curvature at the knots, equal curvature at the joints. Where a
-    /// vertex has met a joint it may lie beyond.
+    /// What doesn't hold: greatest curvature at the knots, equal curvature at the joints.
     fn measure(&mut self, run: &Run) {
         let n = self.middle.len();
         for i in 0..n {
@@ -226,9 +285,7 @@ impl Parabolas {
                 let [before, after] = self.legs(run, i);
                 let (velocity, bend) = (self.at_vertex(run, i), after - before);
                 let cos = velocity.dot(bend) / (velocity.hypot() * bend.hypot());
-                let t = self.vertex[i];
-                let lies_beyond = (t < AT_JOINT && cos > 0.0) || (1.0 - t < AT_JOINT && cos < 0.0);
-                if cos.is_finite() && !lies_beyond {
+                if cos.is_finite() {
                     off = cos.abs();
                 }
             }
@@ -351,9 +408,6 @@ fn vertex(cubic: &[f64; 4], guess: f64) -> f64 {
     }
     t
 }
-
-/// A vertex is at a joint if its parameter is as near to 0 or 1 as this.
-const AT_JOINT: f64 = 1e-9;
 
 /// The same run with its first chord along +x and its longest 1 long, its numbers rounded.
 fn rounded(run: &Run) -> Run {
