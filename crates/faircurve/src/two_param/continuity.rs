@@ -76,7 +76,9 @@ impl<M: CurvatureMap> TangentRule for Continuity<M> {
             }
             if steps == 0 {
                 // No time is left to find out which: all that don't hold.
-                (0..n).filter(|&i| rounded.mismatch[i] > CLOSE).for_each(|i| exact.given_up[i] = true);
+                (0..n)
+                    .filter(|&i| rounded.mismatch[i] > CLOSE)
+                    .for_each(|i| exact.given_up[i] = true);
                 exact.tangents.clone_from(&rounded.tangents);
                 taken += newton(&mut exact, &mut matrix, PLAIN).iterations;
                 break;

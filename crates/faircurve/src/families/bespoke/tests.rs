@@ -67,8 +67,7 @@ fn the_map_is_the_curvature_of_the_segment() {
     for theta0 in ANGLES {
         for theta1 in ANGLES {
             let angles = ChordAngles::new(theta0, theta1);
-            let ends =
-                SegmentEnds { angles, curvatures: None, context: SegmentContext::UNIT };
+            let ends = SegmentEnds { angles, curvatures: None, context: SegmentContext::UNIT };
             let (start, end) = (Point::new(3.0, 4.0), Point::new(3.0, 6.0));
             let segment = BespokeCubics.place(start, end, &ends);
             if segment.is_line() {

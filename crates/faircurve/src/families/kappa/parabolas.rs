@@ -39,43 +39,59 @@ pub(super) struct Parabolas {
 impl Parabolas {
     /// Finds them by the iteration of the paper's section 4: joints of equal curvature from the
     /// control points, vertices from the joints, and control points from both, by a linear system.
+    /// `None` if they haven't settled after so many steps.
     ///
-    /// It sees rounded numbers, so that copies which are moved, turned or scaled take the same course;
-    /// where it settles, it goes on with the exact ones. Parabolas always pass through their knots.
-    ///
-    /// Knots whose parabolas don't settle are given up, the worst first: they lie in the middle of the
-    /// parameter, not at the vertex.
-    pub(super) fn solve(run: &Run, most: usize) -> Parabolas {
-        /// Where the rounding of the numbers begins.
-        const NEAR: f64 = 1e-7;
-        /// Steps after some have been given up.
-        const AFTER: usize = 250;
+    /// The iteration sees rounded numbers, so that copies which are moved, turned or scaled take the
+    /// same course; it ends with the exact ones. Parabolas always pass through their knots.
+    pub(super) fn settle(run: &Run, most: usize) -> Option<Parabolas> {
+        let rounded = rounded(run);
+        let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
+        let mut parabolas = Parabolas::new(&rounded);
+        let moved = parabolas.iterate(&rounded, &mut matrix, most, NEAR);
+        if moved > NEAR || parabolas.give_up_those_at_joints(&rounded) {
+            return None;
+        }
+        parabolas.finish(run, &mut matrix, most);
+        Some(parabolas)
+    }
+
+    /// The same in at most so many steps, whether they settle or not: knots whose parabolas don't are
+    /// given up, the worst first. They lie in the middle of the parameter, not at the vertex.
+    pub(super) fn search(run: &Run, most: usize) -> Parabolas {
+        /// Shares of the steps: before any knot is given up, after some have been, and at the end.
+        const SHARES: [usize; 3] = [3, 10, 4];
         let n = run.knots.len();
         let rounded = rounded(run);
         let mut parabolas = Parabolas::new(&rounded);
         let mut matrix = BlockTridiagonal::new(n, run.closed);
-        let mut moved = parabolas.iterate(&rounded, &mut matrix, most, NEAR);
+        let mut moved = parabolas.iterate(&rounded, &mut matrix, most / SHARES[0], NEAR);
         let mut count = 1;
-        loop {
-            let met = parabolas.give_up_those_at_joints(&rounded);
-            if moved <= NEAR && !met {
+        while moved > NEAR || parabolas.has_vertex_at_joint(&rounded) {
+            if parabolas.iterations + most / SHARES[1] + most / SHARES[2] > most {
+                // Then joints and vertices stay in the middle: that has a solution for any knots.
+                let iterations = parabolas.iterations;
+                parabolas =
+                    Parabolas { fixed_joints: true, iterations, ..Parabolas::new(&rounded) };
+                parabolas.give_up(&rounded, n);
                 break;
-            } else if count >= n {
-                // Then the joints are what doesn't settle.
-                parabolas.fix_joints(&rounded);
-                break;
-            } else if !met {
+            }
+            if !parabolas.give_up_those_at_joints(&rounded) {
                 parabolas.measure(&rounded);
                 parabolas.give_up(&rounded, count);
                 count *= 4;
             }
-            moved = parabolas.iterate(&rounded, &mut matrix, AFTER, NEAR);
+            moved = parabolas.iterate(&rounded, &mut matrix, most / SHARES[1], NEAR);
         }
-        parabolas.find_middles(run, &mut matrix);
-        let size = (0..run.segment_count()).map(|i| run.chord(i).hypot()).fold(0.0, f64::max);
-        parabolas.iterate(run, &mut matrix, most, 1e-15 * size);
-        parabolas.measure(run);
+        parabolas.finish(run, &mut matrix, most / SHARES[2]);
         parabolas
+    }
+
+    /// Goes on with the exact numbers.
+    fn finish(&mut self, run: &Run, matrix: &mut BlockTridiagonal<2>, most: usize) {
+        self.find_middles(run, matrix);
+        let size = (0..run.segment_count()).map(|i| run.chord(i).hypot()).fold(0.0, f64::max);
+        self.iterate(run, matrix, most, 1e-15 * size);
+        self.measure(run);
     }
 
     /// Gives up the vertices of so many knots, those furthest from them.
@@ -89,24 +105,26 @@ impl Parabolas {
         }
     }
 
-    /// Gives up the vertices that have come so close to a joint that curvature would jump there within
-    /// a thousandth of the parabola, and the control points hardly be determined; whether there are any.
-    fn give_up_those_at_joints(&mut self, run: &Run) -> bool {
+    /// Whether the vertex of a knot has come so close to a joint that curvature would jump there within
+    /// a thousandth of the parabola, and the control points hardly be determined.
+    fn is_at_joint(&self, run: &Run, knot: usize) -> bool {
         const CLOSE: f64 = 1e-3;
-        let mut any = false;
-        for i in (0..self.middle.len()).filter(|&i| !is_end(run, i)) {
-            if !(CLOSE..=1.0 - CLOSE).contains(&self.vertex[i]) {
+        !is_end(run, knot) && !(CLOSE..=1.0 - CLOSE).contains(&self.vertex[knot])
+    }
+
+    fn has_vertex_at_joint(&self, run: &Run) -> bool {
+        (0..self.middle.len()).any(|i| self.is_at_joint(run, i))
+    }
+
+    /// Gives up those knots; whether there are any.
+    fn give_up_those_at_joints(&mut self, run: &Run) -> bool {
+        let any = self.has_vertex_at_joint(run);
+        for i in 0..self.middle.len() {
+            if self.is_at_joint(run, i) {
                 (self.given_up[i], self.vertex[i]) = (true, 0.5);
-                any = true;
             }
         }
         any
-    }
-
-    /// Puts every knot and joint in the middle: what has a solution whatever the knots.
-    fn fix_joints(&mut self, run: &Run) {
-        *self = Parabolas { fixed_joints: true, iterations: self.iterations, ..Parabolas::new(run) };
-        self.give_up(run, self.middle.len());
     }
 
     fn new(run: &Run) -> Parabolas {
@@ -169,11 +187,8 @@ impl Parabolas {
         } else {
             beyond
         };
-        let after = if run.closed || knot + 1 < n {
-            self.leg(knot) * self.lambda[knot]
-        } else {
-            -beyond
-        };
+        let after =
+            if run.closed || knot + 1 < n { self.leg(knot) * self.lambda[knot] } else { -beyond };
         [before, after]
     }
 
@@ -206,12 +221,8 @@ impl Parabolas {
             let c2 = self.middle[i] + after - knot;
             let chord = c2 - c0;
             // |c₂ − c₀|² t³ + 3 (c₂ − c₀)·(c₀ − p) t² + (3c₀ − 2p − c₂)·(c₀ − p) t − |c₀ − p|² = 0
-            let cubic = [
-                -c0.hypot2(),
-                (c0 * 3.0 - c2).dot(c0),
-                3.0 * chord.dot(c0),
-                chord.hypot2(),
-            ];
+            let cubic =
+                [-c0.hypot2(), (c0 * 3.0 - c2).dot(c0), 3.0 * chord.dot(c0), chord.hypot2()];
             self.vertex[i] = vertex(&cubic, self.vertex[i]);
         }
     }
@@ -408,6 +419,10 @@ fn vertex(cubic: &[f64; 4], guess: f64) -> f64 {
     }
     t
 }
+
+/// Control points that move by less, in units of the longest chord, have settled as far as rounded
+/// numbers tell.
+const NEAR: f64 = 1e-7;
 
 /// The same run with its first chord along +x and its longest 1 long, its numbers rounded.
 fn rounded(run: &Run) -> Run {
