@@ -275,3 +275,26 @@ fn bespoke_is_smoother_along_a_spiral() {
     assert_eq!((count("bespoke", 1.03), count("kappa", 1.03)), (1, 7));
     assert_eq!(count("kappa", 1.1), 7);
 }
+
+/// Bespoke section 2: a curvature map decides on tangents and curvatures, and any four-parameter shape
+/// can draw them. Here bespoke's map, drawn by polynomial spirals.
+#[test]
+fn bespoke_drawn_by_spirals_has_the_same_tangents_and_curvatures() {
+    let file = load("bespoke.json");
+    for (name, set) in file["sets"].as_object().expect("sets by name") {
+        if set.is_string() {
+            continue;
+        }
+        let contour = contour(set);
+        let own = solved("bespoke", &contour, &[]);
+        let drawn = solved("bespoke", &contour, &[("shape", "spiro")]);
+        assert_eq!(drawn.report.status(), Status::Solved, "{name}: {:?}", drawn.report);
+        assert!(drawn.curve.segments().iter().all(|segment| segment.kappa().is_some()));
+        for (a, b) in own.knots.iter().zip(&drawn.knots) {
+            for (a, b) in [(a.direction_in, b.direction_in), (a.curvature_in, b.curvature_in)] {
+                let (Some(a), Some(b)) = (a, b) else { continue };
+                assert!((a - b).abs() <= 1e-9 * (1.0 + a.abs()), "{name}: {a} {b}");
+            }
+        }
+    }
+}

@@ -59,7 +59,7 @@ impl Parabolas {
     /// given up, the worst first. They lie in the middle of the parameter, not at the vertex.
     pub(super) fn search(run: &Run, most: usize) -> Parabolas {
         /// Shares of the steps: before any knot is given up, after some have been, and at the end.
-        const SHARES: [usize; 3] = [3, 10, 4];
+        const SHARES: [usize; 3] = [2, 16, 6];
         let n = run.knots.len();
         let rounded = rounded(run);
         let mut parabolas = Parabolas::new(&rounded);
