@@ -119,7 +119,7 @@ impl Spline for Kappa {
 const PLAIN: usize = 250;
 
 /// The most steps of a search: what hasn't settled by then rarely does.
-const MOST: usize = 2000;
+const MOST: usize = 1000;
 
 /// The fewest, where hardly any effort is left.
 const FEWEST: usize = 40;
