@@ -422,29 +422,41 @@ impl Segment {
     /// a scale by a power of two does, or giving a merged knot its own place.
     pub(crate) fn moved_to(&self, start: Point, end: Point) -> Segment {
         let (from, to) = (self.end - self.start, end - start);
+        // Exactly a power of two and 0 where the chord has only been scaled.
+        let (scale, turn) = (to.hypot() / from.hypot(), turning(from, to));
+        // Multiplication by the ratio of the chords, as complex numbers.
+        let ratio = Vec2::new(from.dot(to), from.cross(to)) / from.hypot2();
+        let moved = |p: Point| {
+            let v = p - self.start;
+            start + Vec2::new(v.x * ratio.x - v.y * ratio.y, v.x * ratio.y + v.y * ratio.x)
+        };
+        self.moved_with(start, end, scale, turn, &moved)
+    }
+
+    /// The same segment between other points, scaled and turned with the whole that it is part of:
+    /// where it is short, its own points don't know its direction well.
+    fn moved_with(
+        &self,
+        start: Point,
+        end: Point,
+        scale: f64,
+        turn: f64,
+        moved: &dyn Fn(Point) -> Point,
+    ) -> Segment {
         let shape = match &self.shape {
             Shape::Line => return Segment::line(start, end),
             Shape::Spiral(_) | Shape::Unit(_) => self.shape.clone(),
             Shape::Chain(members) => {
-                // Multiplication by the ratio of the chords, as complex numbers.
-                let ratio = Vec2::new(from.dot(to), from.cross(to)) / from.hypot2();
-                let moved = |p: Point| {
-                    let v = p - self.start;
-                    start + Vec2::new(v.x * ratio.x - v.y * ratio.y, v.x * ratio.y + v.y * ratio.x)
-                };
                 let last = members.len() - 1;
                 let mut next = start;
                 return Segment::chain(members.iter().enumerate().map(|(i, member)| {
                     let from = next;
                     next = if i == last { end } else { moved(member.end) };
-                    member.moved_to(from, next)
+                    member.moved_with(from, next, scale, turn, moved)
                 }));
             }
         };
-        let length = self.length * (to.hypot() / from.hypot());
-        // Exactly 0 where the chord has only been scaled.
-        let heading = self.heading + turning(from, to);
-        Segment { start, end, shape, length, heading }
+        Segment { start, end, shape, length: self.length * scale, heading: self.heading + turn }
     }
 
     /// Arc lengths at which curvature is zero (inflections), ascending; none on a line. On shapes
