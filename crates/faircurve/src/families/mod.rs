@@ -2,5 +2,6 @@
 
 pub mod catalog;
 pub mod euler;
+pub mod parts;
 pub mod shapes;
 pub mod spiro;

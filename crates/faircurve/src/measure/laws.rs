@@ -596,7 +596,8 @@ pub fn spread_about_one_curve(solutions: &[Solution]) -> Option<f64> {
             return Some(1.0);
         }
         for i in 0..8 {
-            let [k, k1, k2, _] = segment.curvature_jet(segment.length() * (0.06 + 0.125 * f64::from(i)));
+            let [k, k1, k2, _] =
+                segment.curvature_jet(segment.length() * (0.06 + 0.125 * f64::from(i)));
             let (a, b) = (k1 / (k * k), k2 / (k * k * k));
             // Near inflections and on straight lines both are ratios of rounding errors.
             if k.abs() * segment.length() > 1e-3 && a.is_finite() && b.is_finite() {
