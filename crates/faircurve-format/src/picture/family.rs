@@ -19,7 +19,7 @@ const SQUARE: f64 = 440.0;
 const TEXT: f64 = 9.0;
 const TITLE: f64 = 11.0;
 /// Room for labels to the left of the square, and below it.
-const LEFT: f64 = 40.0;
+const LEFT: f64 = 46.0;
 const BELOW: f64 = 34.0;
 const ABOVE: f64 = 30.0;
 /// Tenths of a unit are finer than any line.
@@ -97,36 +97,43 @@ impl Picture {
     /// theta0 to the right, theta1 upward; in colours, with contour lines. Where
     /// `curvature` has none there is a gap.
     pub fn curvature_map(title: &str, curvature: &dyn Fn(ChordAngles) -> Option<f64>) -> Picture {
-        const CELLS: usize = 48;
+        /// Odd, so that no place lies where families have exact symmetries, and rounding decides nothing.
+        const CELLS: usize = 47;
+        /// At half a turn itself many families have nothing.
+        const EDGE: f64 = 0.996 * PI;
         let pitch = SQUARE / CELLS as f64;
-        // Off the places where families have exact symmetries, so that rounding decides nothing.
-        let x = |i: usize| (i as f64 + 0.4713) * pitch;
-        let y = |j: usize| (j as f64 + 0.5291) * pitch;
-        let radians = |place: f64| PI * (2.0 * place / SQUARE - 1.0);
-        let values: Vec<Vec<Option<f64>>> = (0..CELLS)
-            .map(|j| {
-                let row = (0..CELLS).map(|i| ChordAngles::new(radians(x(i)), radians(y(j))));
-                row.map(|angles| curvature(angles).filter(|k| !k.is_nan())).collect()
-            })
-            .collect();
-        let mut marks = areas(&values, pitch);
-        let mut lines = BezPath::new();
-        let mut zero = BezPath::new();
-        for level in LEVELS {
-            let lines = if level == 0.0 { &mut zero } else { &mut lines };
-            for j in 0..CELLS - 1 {
-                for i in 0..CELLS - 1 {
-                    let corner = |i: usize, j: usize| {
-                        Some((Point::new(x(i), SQUARE - y(j)), squeezed(values[j][i]?)))
-                    };
-                    let corners =
-                        [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
-                    if let [Some(a), Some(b), Some(c), Some(d)] = corners {
-                        contour_line(lines, [a, b, c, d], squeezed(level));
-                    }
+        let radians = |i: usize| EDGE * (2.0 * i as f64 / CELLS as f64 - 1.0);
+        let value = |i: usize, j: usize| {
+            let curvature = curvature(ChordAngles::new(radians(i), radians(j)));
+            curvature.filter(|curvature| !curvature.is_nan()).map(squeezed)
+        };
+        let values: Vec<Vec<Option<f64>>> =
+            (0..=CELLS).map(|j| (0..=CELLS).map(|i| value(i, j)).collect()).collect();
+        let corner = |i: usize, j: usize| {
+            Some((Point::new(i as f64 * pitch, SQUARE - j as f64 * pitch), values[j][i]?))
+        };
+        let mut bands: [BezPath; 10] = Default::default();
+        let (mut lines, mut zero) = (BezPath::new(), BezPath::new());
+        for j in 0..CELLS {
+            for i in 0..CELLS {
+                let corners =
+                    [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+                let [Some(a), Some(b), Some(c), Some(d)] = corners else { continue };
+                fill(&mut bands, [a, b, c, d]);
+                for level in LEVELS {
+                    let lines = if level == 0.0 { &mut zero } else { &mut lines };
+                    contour_line(lines, [a, b, c, d], squeezed(level));
                 }
             }
         }
+        let mark = |(path, (class, rgb)): (BezPath, (&'static str, [u8; 3]))| Mark {
+            class,
+            path,
+            fill: Some(paint(rgb, 1.0)),
+            stroke: None,
+            exact: false,
+        };
+        let mut marks: Vec<Mark> = bands.into_iter().zip(COLOURS).map(mark).collect();
         marks.push(Mark::line("contours", lines, paint(INK, 0.55), 0.7));
         marks.push(Mark::line("zero", zero, LINE, 1.4));
         let degrees = [-180.0, -90.0, 0.0, 90.0, 180.0];
@@ -146,7 +153,7 @@ fn kurbo_line(from: Point, to: Point) -> BezPath {
 /// A segment as so many cubics whose arms are a third of their arcs: within a hundredth of a turn
 /// of it, which no picture shows.
 fn beziers(segment: &Segment) -> BezPath {
-    const PIECES: usize = 10;
+    const PIECES: usize = 8;
     /// Directions are those just inside a piece, since at a cusp they are those of the other side.
     const INSIDE: f64 = 1e-6;
     let step = segment.length() / PIECES as f64;
@@ -166,46 +173,77 @@ fn squeezed(curvature: f64) -> f64 {
     (curvature / 4.0).atan() * (2.0 / PI)
 }
 
-/// Squares of one colour in one path, those side by side as one rectangle.
-fn areas(values: &[Vec<Option<f64>>], pitch: f64) -> Vec<Mark> {
-    let colour = |value: Option<f64>| {
-        value.map(|value| LEVELS.iter().take_while(|level| value > **level).count())
-    };
-    let mut paths: [BezPath; 10] = Default::default();
-    for (j, row) in values.iter().enumerate() {
-        let bottom = SQUARE - j as f64 * pitch;
-        let mut i = 0;
-        while i < row.len() {
-            let here = colour(row[i]);
-            let same = row[i..].iter().take_while(|value| colour(**value) == here).count();
-            if let Some(here) = here {
-                let left = i as f64 * pitch;
-                // A little over the next row, so that no seam shows.
-                let over = if j + 1 < row.len() { 0.6 } else { 0.0 };
-                let area =
-                    Rect::new(left, bottom - pitch - over, left + same as f64 * pitch, bottom);
-                paths[here].extend(area.to_path(0.1));
-            }
-            i += same;
+/// Beyond this difference of squeezed curvatures, a square holds a jump or a cusp, and nothing is
+/// interpolated.
+const JUMP: f64 = 0.7;
+
+fn range(corners: &[(Point, f64)]) -> (f64, f64) {
+    let values = || corners.iter().map(|corner| corner.1);
+    (values().fold(1.0, f64::min), values().fold(-1.0, f64::max))
+}
+
+/// The colour of a squeezed curvature.
+fn band(value: f64) -> usize {
+    LEVELS.iter().take_while(|level| value > squeezed(**level)).count()
+}
+
+/// Divides a square between the colours that it has.
+fn fill(bands: &mut [BezPath; 10], corners: [(Point, f64); 4]) {
+    let (low, high) = range(&corners);
+    if high - low > JUMP {
+        // Each corner has its own quarter.
+        let middle = corners[0].0.midpoint(corners[2].0);
+        for (corner, value) in corners {
+            polygon(
+                &mut bands[band(value)],
+                &[
+                    (corner, 0.0),
+                    (Point::new(middle.x, corner.y), 0.0),
+                    (middle, 0.0),
+                    (Point::new(corner.x, middle.y), 0.0),
+                ],
+            );
+        }
+        return;
+    }
+    for here in band(low)..=band(high) {
+        let mut area = corners.to_vec();
+        if here > 0 {
+            area = clipped(&area, squeezed(LEVELS[here - 1]), 1.0);
+        }
+        if here < LEVELS.len() {
+            area = clipped(&area, squeezed(LEVELS[here]), -1.0);
+        }
+        polygon(&mut bands[here], &area);
+    }
+}
+
+/// What of a polygon lies above a level (`side` = 1) or below it (−1).
+fn clipped(polygon: &[(Point, f64)], level: f64, side: f64) -> Vec<(Point, f64)> {
+    let mut kept = Vec::with_capacity(polygon.len() + 2);
+    for (i, &a) in polygon.iter().enumerate() {
+        let b = polygon[(i + 1) % polygon.len()];
+        let (above_a, above_b) = ((a.1 - level) * side >= 0.0, (b.1 - level) * side >= 0.0);
+        if above_a {
+            kept.push(a);
+        }
+        if above_a != above_b {
+            kept.push((a.0.lerp(b.0, (level - a.1) / (b.1 - a.1)), level));
         }
     }
-    let mark = |(path, (class, rgb)): (BezPath, (&'static str, [u8; 3]))| Mark {
-        class,
-        path,
-        fill: Some(paint(rgb, 1.0)),
-        stroke: None,
-        exact: false,
-    };
-    paths.into_iter().zip(COLOURS).map(mark).filter(|mark| !mark.path.is_empty()).collect()
+    kept
+}
+
+fn polygon(path: &mut BezPath, corners: &[(Point, f64)]) {
+    let Some((first, rest)) = corners.split_first() else { return };
+    path.move_to(first.0);
+    rest.iter().for_each(|corner| path.line_to(corner.0));
+    path.close_path();
 }
 
 /// The line through a square on which the corners' values, interpolated, are `level`.
 fn contour_line(path: &mut BezPath, corners: [(Point, f64); 4], level: f64) {
-    /// Beyond, the square holds a jump or a cusp, and no line.
-    const JUMP: f64 = 0.7;
-    let values = corners.map(|corner| corner.1);
-    let (low, high) =
-        (values.into_iter().fold(1.0, f64::min), values.into_iter().fold(-1.0, f64::max));
+    let (low, high) = range(&corners);
     if high - low > JUMP {
         return;
     }
@@ -264,7 +302,7 @@ fn framed(title: &str, mut marks: Vec<Mark>, labels: &[(f64, f64)], right: f64) 
     }
     let axis = |words: &str| lettering::width(words, TEXT);
     words.extend(line_of("θ0", TEXT, (SQUARE - axis("θ0")) / 2.0, SQUARE + 32.0).iter());
-    words.extend(line_of("θ1", TEXT, -8.0 - axis("θ1"), -8.0).iter());
+    words.extend(line_of("θ1", TEXT, -8.0 - axis("θ1"), -14.0).iter());
     marks.push(written("labels", words, LABEL_INK, TEXT));
     let left = (SQUARE - lettering::width(title, TITLE)) / 2.0;
     marks.push(written("title", line_of(title, TITLE, left, -12.0), LINE, TITLE));
@@ -306,7 +344,7 @@ mod tests {
         };
         let picture = Picture::parameter_space("line", &line);
         let segments = &picture.cells[0].marks[1];
-        assert_eq!(segments.path.elements().len(), 6 * 11 * (1 + 10));
+        assert_eq!(segments.path.elements().len(), 6 * 11 * (1 + 8));
         let map = Picture::curvature_map("sum", &|angles| Some(angles.turning()));
         assert!(map.cells[0].marks.iter().any(|mark| mark.class == "zero"));
         let none = Picture::curvature_map("none", &|_| None);
