@@ -2,12 +2,32 @@
 //! given end angles.
 
 use faircurve::catalog::{self, Claim, ENTRIES, SplineInfo};
-use faircurve::families::parts::{Parts, parts};
+use faircurve::families::euler::EulerSpirals;
 use faircurve::frame::ChordAngles;
 use faircurve::kurbo::{Point, Vec2};
-use faircurve::two_param::curvature_map::SegmentContext;
-use faircurve::two_param::shape::SegmentEnds;
+use faircurve::two_param::curvature_map::{CurvatureMap, SegmentContext};
+use faircurve::two_param::shape::{SegmentEnds, SegmentShape};
 use faircurve::{Contour, Knot, Segment, Solution, Spline, Status};
+
+/// The curvature map of a family, and the shape that belongs to it.
+pub(crate) struct Parts {
+    pub(crate) map: Box<dyn CurvatureMap>,
+    pub(crate) shape: Box<dyn SegmentShape>,
+}
+
+impl Parts {
+    /// Of the spline of that name, with every default; `None` where they aren't known here.
+    fn of(name: &str) -> Option<Parts> {
+        match name {
+            "euler" => Parts::new(EulerSpirals, EulerSpirals),
+            _ => None,
+        }
+    }
+
+    fn new(map: impl CurvatureMap + 'static, shape: impl SegmentShape + 'static) -> Option<Parts> {
+        Some(Parts { map: Box::new(map), shape: Box::new(shape) })
+    }
+}
 
 /// A family, by its parts where it has them, or else by what it does with two knots whose tangents
 /// are given.
@@ -26,7 +46,7 @@ impl Family {
         let two = |info: &&SplineInfo| info.claims.contains(&Claim::Parameters(2));
         ENTRIES.iter().copied().filter(two).filter_map(|info| {
             let spline = catalog::spline(info.name).ok()?;
-            Some(Family { info, parts: parts(info.name), spline })
+            Some(Family { info, parts: Parts::of(info.name), spline })
         })
     }
 

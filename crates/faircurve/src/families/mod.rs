@@ -2,6 +2,5 @@
 
 pub mod catalog;
 pub mod euler;
-pub mod parts;
 pub mod shapes;
 pub mod spiro;
