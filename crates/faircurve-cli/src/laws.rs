@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use faircurve::catalog::{self, Claim, ENTRIES, SplineInfo};
+use faircurve::measure::verdict::PROPERTIES;
 use faircurve::measure::{Laws, Verdict};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -33,14 +34,22 @@ pub(crate) fn as_text() -> Result<String, Failure> {
     let mut text = String::new();
     text.push_str("grades, as in thesis Table 4.1\n\n");
     table(&mut text, &rows, &GRADES);
-    text.push_str("\nnumbers: distances as fractions of the drawing, 0 below 1e-12\n\n");
+    text.push_str(
+        "\nnumbers: distances as fractions of the drawing, 0 below 1e-12; off the circle through four points,\n\
+         through uneven ones, and how the former falls with their number\n\n",
+    );
     table(&mut text, &rows, &NUMBERS);
     text.push_str(
-        "\nmore numbers: jumps at knots of direction, κ, κ′, κ″ without units; a ripple's factor from \
-         knot to knot;\nhow many times a knot's move the curve moves\n\n",
+        "\nmore numbers: jumps at knots, without units; the factor of a ripple from knot to knot, and how many \
+         segments\na knot moves; how much faster than a knot the curve moves; how far segments are from being \
+         cut from one curve\n\n",
     );
     table(&mut text, &rows, &MORE_NUMBERS);
-    text.push_str("\nshares, in percent: drawings solved as asked (circle: jittered, 16 knots; walk: turns up to 60°, 4, 8 and 16\nknots; square: uniform, 4 and 8 knots), knots' paths on which the curve jumps, monotone segments\n\n");
+    text.push_str(
+        "\nshares, in percent: drawings solved as asked (jittered circles of 16 knots; walks that turn by up to \
+         60°;\nuniform in a square), paths of a knot on which the curve jumps, segments with monotone \
+         curvature\n\n",
+    );
     table(&mut text, &rows, &SHARES);
     text.push_str("\nclaims\n\n");
     claims(&mut text, &rows);
@@ -53,14 +62,16 @@ type Column = (&'static str, fn(&Row) -> String);
 const GRADES: [Column; 7] = [
     ("spline", |row| row.info.name.to_owned()),
     ("tangents", |row| row.laws.tangents().to_owned()),
-    ("continuity", |row| format!("G{}", row.laws.continuity())),
+    ("continuity", |row| {
+        row.laws.continuity().map_or("unknown".to_owned(), |order| format!("G{order}"))
+    }),
     ("extensionality", |row| row.laws.extensionality_grade().to_string()),
     ("roundness", |row| row.laws.roundness_grade().to_string()),
     ("robustness", |row| row.laws.robustness_grade().to_string()),
     ("locality", |row| row.laws.locality_grade().to_string()),
 ];
 
-const NUMBERS: [Column; 10] = [
+const NUMBERS: [Column; 11] = [
     ("spline", |row| row.info.name.to_owned()),
     ("misses", |row| small(row.laws.misses)),
     ("similar", |row| small(row.laws.invariance.similarity)),
@@ -72,6 +83,7 @@ const NUMBERS: [Column; 10] = [
     ("off circle", |row| {
         small(row.laws.roundness.even.iter().find(|(n, _)| *n == 4).map_or(0.0, |even| even.1))
     }),
+    ("uneven", |row| small(row.laws.roundness.uneven)),
     ("as n^", |row| match row.laws.roundness.order {
         Some(order) if !row.laws.is_round() => format!("{:.2}", -order),
         _ => "exact".to_owned(),
@@ -80,16 +92,16 @@ const NUMBERS: [Column; 10] = [
 
 const MORE_NUMBERS: [Column; 10] = [
     ("spline", |row| row.info.name.to_owned()),
-    ("jump θ", |row| small(row.laws.jumps[0])),
-    ("κ", |row| small(row.laws.jumps[1])),
-    ("κ′", |row| small(row.laws.jumps[2])),
-    ("κ″", |row| small(row.laws.jumps[3])),
+    ("jump θ", |row| jump(row, 0)),
+    ("κ", |row| jump(row, 1)),
+    ("κ′", |row| jump(row, 2)),
+    ("κ″", |row| jump(row, 3)),
     ("ripple", |row| match row.laws.locality.support {
         Some(_) => "none".to_owned(),
         None => format!("{:.4}", row.laws.locality.ripple),
     }),
     ("support", |row| row.laws.locality.support.map_or("all".to_owned(), |s| format!("±{s}"))),
-    ("moves", |row| short(row.laws.moves.ratio)),
+    ("moves", |row| row.laws.moves.ratio.map_or("unknown".to_owned(), short)),
     ("parameters", |row| row.laws.parameters.to_string()),
     ("one curve", |row| row.laws.spread.map_or("unknown".to_owned(), small)),
 ];
@@ -102,6 +114,11 @@ const SHARES: [Column; 6] = [
     ("jumps", |row| percent(row.laws.moves.jumps)),
     ("monotone", |row| percent(row.laws.monotone)),
 ];
+
+/// The largest jump of that derivative at a knot.
+fn jump(row: &Row, order: usize) -> String {
+    row.laws.jumps.map_or("unknown".to_owned(), |jumps| small(jumps[order]))
+}
 
 /// The share solved in the classes whose name starts so.
 fn solved(row: &Row, start: &str) -> String {
@@ -157,24 +174,39 @@ fn table(text: &mut String, rows: &[Row], columns: &[Column]) {
     }
 }
 
+/// What each spline claims and whether it holds; then the properties that it doesn't claim, with the
+/// number that is the witness against them.
 fn claims(text: &mut String, rows: &[Row]) {
     let name = rows.iter().map(|row| row.info.name.len()).max().unwrap_or(0);
     for row in rows {
-        for (i, claim) in row.info.claims.iter().enumerate() {
+        let claimed = row.info.claims.iter().map(|claim| (claim, Verdict::on(claim, &row.laws)));
+        let claimed =
+            claimed.map(|(claim, verdict)| (claim.to_string(), claim, verdict, verdict.name()));
+        let lacking = lacking(row).map(|(claim, verdict)| {
+            let word = if verdict.holds() { "no witness" } else { "witness" };
+            (format!("not {claim}"), claim, verdict, word)
+        });
+        for (i, (words, claim, verdict, judgement)) in claimed.chain(lacking).enumerate() {
             let spline = if i == 0 { row.info.name } else { "" };
-            let verdict = Verdict::on(claim, &row.laws);
             let number = match (verdict.number(), claim) {
                 (Some(number), Claim::Ripple(_)) => format!("{number:.4}"),
                 (Some(number), Claim::RoundToOrder(_)) => format!("{number:.2}"),
+                (Some(number), Claim::Continuity(_) | Claim::Parameters(_)) => number.to_string(),
                 (Some(number), _) => small(number),
                 (None, _) => String::new(),
             };
-            let claim = claim.to_string();
-            let line = format!("  {spline:<name$}   {claim:<22} {:<13}{number}", verdict.name());
+            let judgement = if verdict == Verdict::Unknown { "unknown" } else { judgement };
+            let line = format!("  {spline:<name$}   {words:<24} {judgement:<13} {number}");
             text.push_str(line.trim_end());
             text.push('\n');
         }
     }
+}
+
+/// The properties that a spline doesn't claim.
+fn lacking(row: &Row) -> impl Iterator<Item = (&'static Claim, Verdict)> + '_ {
+    let lacks = |claim: &&Claim| !row.info.claims.contains(claim);
+    PROPERTIES.iter().filter(lacks).map(|claim| (claim, Verdict::on(claim, &row.laws)))
 }
 
 #[derive(Serialize)]
@@ -192,8 +224,9 @@ struct LawsEntry {
     mirror: f64,
     direction: f64,
     affine: f64,
-    jumps: [f64; 4],
-    continuity: u8,
+    /// `null` if nothing was solved, and so is `continuity`.
+    jumps: Option<[f64; 4]>,
+    continuity: Option<u8>,
     roundness: RoundnessEntry,
     extensionality: ExtensionalityEntry,
     ripple: f64,
@@ -205,6 +238,8 @@ struct LawsEntry {
     parameters: usize,
     spread_about_one_curve: Option<f64>,
     claims: Vec<ClaimEntry>,
+    /// Properties not claimed; `contradicted` means that the number is the witness.
+    lacks: Vec<ClaimEntry>,
 }
 
 #[derive(Serialize)]
@@ -240,7 +275,8 @@ struct ExistenceEntry {
 
 #[derive(Serialize)]
 struct MovesEntry {
-    ratio: f64,
+    /// `null` if every path has a jump.
+    ratio: Option<f64>,
     jumps: f64,
 }
 
@@ -261,10 +297,12 @@ pub(crate) fn as_json() -> Result<String, Failure> {
 
 fn entry(row: &Row) -> LawsEntry {
     let laws = &row.laws;
-    let claim = |claim: &Claim| {
-        let verdict = Verdict::on(claim, laws);
-        ClaimEntry { claim: claim.to_string(), verdict: verdict.name(), number: verdict.number() }
+    let judged = |claim: &Claim, verdict: Verdict| ClaimEntry {
+        claim: claim.to_string(),
+        verdict: verdict.name(),
+        number: verdict.number(),
     };
+    let claim = |claim: &Claim| judged(claim, Verdict::on(claim, laws));
     let existence = |e: &faircurve::measure::laws::Existence| ExistenceEntry {
         class: e.class,
         solved: e.solved,
@@ -303,5 +341,6 @@ fn entry(row: &Row) -> LawsEntry {
         parameters: laws.parameters,
         spread_about_one_curve: laws.spread,
         claims: row.info.claims.iter().map(claim).collect(),
+        lacks: lacking(row).map(|(claim, verdict)| judged(claim, verdict)).collect(),
     }
 }

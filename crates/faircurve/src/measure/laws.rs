@@ -23,8 +23,9 @@ pub struct Laws {
     /// How the curve follows maps of the plane and the other direction of travel (2.7).
     pub invariance: Invariance,
     /// The largest jumps at knots of direction, κ, κ′, κ″, without units
-    /// ([`Jump::dimensionless`](super::Jump::dimensionless)), on gentle drawings (2.2).
-    pub jumps: [f64; 4],
+    /// ([`Jump::dimensionless`](super::Jump::dimensionless)), on gentle drawings solved as asked
+    /// (2.2); `None` if there are none.
+    pub jumps: Option<[f64; 4]>,
     /// Knots on a circle (2.3).
     pub roundness: Roundness,
     /// A knot added on the curve (2.4).
@@ -107,9 +108,9 @@ pub struct Existence {
 /// What becomes of the curve while one of five random knots moves along a line.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Moves {
-    /// How far the curve moves for each unit that the knot does: the median over paths of the
-    /// largest ratio of each.
-    pub ratio: f64,
+    /// How far the curve moves for each unit that the knot does: the median, over paths without
+    /// jumps, of the largest ratio of each; `None` if all have jumps.
+    pub ratio: Option<f64>,
     /// The share of paths on which the curve jumps: it moves by more than [`Moves::JUMP`] while the
     /// knot moves by less than 10⁻⁵.
     pub jumps: f64,
@@ -308,13 +309,11 @@ fn off_backwards(spline: &dyn Spline, contour: &Contour, solution: &Solution) ->
     most / size(contour)
 }
 
-fn largest_jumps(gentle: &Gentle) -> [f64; 4] {
+fn largest_jumps(gentle: &Gentle) -> Option<[f64; 4]> {
     let solved = gentle.solutions.iter().filter(|s| s.report.status() == Status::Solved);
     let all = solved.flat_map(|solution| jumps(&solution.curve)).flatten();
-    all.fold([0.0; 4], |most, jump| {
-        let here = jump.dimensionless();
-        std::array::from_fn(|order| f64::max(most[order], here[order].abs()))
-    })
+    let sizes = all.map(|jump| jump.dimensionless().map(f64::abs));
+    sizes.reduce(|most, here| std::array::from_fn(|order| most[order].max(here[order])))
 }
 
 fn roundness(spline: &dyn Spline) -> Roundness {
@@ -505,11 +504,13 @@ fn moves(spline: &dyn Spline) -> Moves {
         }
         if apart > Moves::JUMP * scale {
             jumps += 1;
+        } else {
+            ratios.push(apart / ((to - from) * way.hypot()));
         }
-        ratios.push(apart / ((to - from) * way.hypot()));
     }
     ratios.sort_by(f64::total_cmp);
-    Moves { ratio: ratios[PATHS / 2], jumps: f64::from(jumps) / PATHS as f64 }
+    let ratio = ratios.get(ratios.len() / 2).copied();
+    Moves { ratio, jumps: f64::from(jumps) / PATHS as f64 }
 }
 
 fn parameters(spline: &dyn Spline) -> usize {

@@ -690,23 +690,29 @@ impl Segment {
         stops
     }
 
-    /// Arc lengths at which `f` changes its sign, found between 16 places in each smooth stretch.
+    /// Arc lengths at which `f` changes its sign, found between 16 places in each smooth stretch, and
+    /// at the breaks between them.
     fn sign_changes(&self, piece: &UnitPiece, f: impl Fn(f64) -> f64) -> Vec<f64> {
         const PLACES: usize = 16;
         let stops = self.stops(piece);
         let mut places = Vec::new();
+        let mut before = None;
         for ends in stops.windows(2) {
             // Just inside, since at a joint or a cusp the function is that of the other side.
             let inside = |i: usize| {
                 let along = (i as f64 / PLACES as f64).clamp(1e-9, 1.0 - 1e-9);
                 ends[0] + (ends[1] - ends[0]) * along
             };
+            if before.is_some_and(|before| before * f(inside(0)) < 0.0) {
+                places.push(ends[0]);
+            }
             for i in 0..PLACES {
                 let (from, to) = (inside(i), inside(i + 1));
                 if f(from) * f(to) < 0.0 {
                     places.extend(monotone_root(&f, from, to));
                 }
             }
+            before = Some(f(inside(PLACES)));
         }
         places
     }
