@@ -442,17 +442,17 @@ fn existence(spline: &dyn Spline) -> Vec<Existence> {
     /// Up to 60 degrees.
     const TURN: f64 = TAU / 6.0;
     let classes: [(&str, usize, Draw); 8] = [
-        ("jittered circle, closed, 16 knots", 50, |random| random.ring(16, 0.3)),
-        ("jittered circle, open, 16 knots", 50, |random| Contour {
+        ("jittered circle, closed, 16 knots", 25, |random| random.ring(16, 0.3)),
+        ("jittered circle, open, 16 knots", 25, |random| Contour {
             closed: false,
             ..random.ring(16, 0.3)
         }),
-        ("walk, open, 4 knots", 100, |random| random.walk(4, TURN)),
-        ("walk, open, 16 knots", 50, |random| random.walk(16, TURN)),
-        ("walk, closed, 8 knots", 50, |random| Contour { closed: true, ..random.walk(8, TURN) }),
-        ("uniform in a square, open, 4 knots", 100, |random| random.uniform(4, false)),
-        ("uniform in a square, open, 8 knots", 50, |random| random.uniform(8, false)),
-        ("uniform in a square, closed, 8 knots", 50, |random| random.uniform(8, true)),
+        ("walk, open, 4 knots", 50, |random| random.walk(4, TURN)),
+        ("walk, open, 16 knots", 25, |random| random.walk(16, TURN)),
+        ("walk, closed, 8 knots", 25, |random| Contour { closed: true, ..random.walk(8, TURN) }),
+        ("uniform in a square, open, 4 knots", 50, |random| random.uniform(4, false)),
+        ("uniform in a square, open, 8 knots", 25, |random| random.uniform(8, false)),
+        ("uniform in a square, closed, 8 knots", 25, |random| random.uniform(8, true)),
     ];
     let mut random = Random::new(3);
     let measure = |(class, of, draw): (&'static str, usize, Draw)| {
@@ -466,10 +466,10 @@ fn existence(spline: &dyn Spline) -> Vec<Existence> {
 }
 
 fn moves(spline: &dyn Spline) -> Moves {
-    const PATHS: usize = 32;
-    const STEPS: usize = 12;
-    /// A step of 0.6/12 halved so often is 6e-6 of the drawing.
-    const HALVINGS: usize = 14;
+    const PATHS: usize = 24;
+    const STEPS: usize = 8;
+    /// A step of 0.6/8 halved so often is 1e-5 of the drawing.
+    const HALVINGS: usize = 13;
     let mut random = Random::new(4);
     let (mut ratios, mut jumps) = (Vec::new(), 0);
     for path in 0..PATHS {
