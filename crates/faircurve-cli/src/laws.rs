@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::measure::significant;
 use crate::progress::Progress;
 
 /// A spline and its numbers.
@@ -140,15 +141,7 @@ fn small(x: f64) -> String {
 }
 
 fn short(x: f64) -> String {
-    if x == 0.0 || (1e-3..1e4).contains(&x.abs()) {
-        // Three significant digits.
-        let digits = 2 - x.abs().max(1e-3).log10().floor() as i32;
-        format!("{x:.*}", digits.max(0) as usize)
-    } else if x >= f64::MAX {
-        "huge".to_owned()
-    } else {
-        format!("{x:.1e}")
-    }
+    if x >= f64::MAX { "huge".to_owned() } else { significant(x, 3) }
 }
 
 fn table(text: &mut String, rows: &[Row], columns: &[Column]) {

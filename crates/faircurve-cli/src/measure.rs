@@ -284,10 +284,18 @@ pub(crate) fn short(x: f64) -> String {
 }
 
 /// So many significant digits, with an exponent where it is shorter.
-pub(crate) fn significant(x: f64, digits: i32) -> String {
-    let magnitude = if x == 0.0 { 0 } else { x.abs().log10().floor() as i32 };
-    if !(-4..=6).contains(&magnitude) {
-        return format!("{x:.*e}", digits as usize - 1);
+pub(crate) fn significant(x: f64, digits: usize) -> String {
+    if x == 0.0 {
+        return "0".to_owned();
     }
-    format!("{x:.*}", (digits - 1 - magnitude).max(0) as usize)
+    // Rounded first, so that 0.9999999 is 1.00000.
+    let scientific = format!("{x:.*e}", digits - 1);
+    let exponent = scientific.split_once('e').and_then(|(_, exponent)| exponent.parse().ok());
+    match exponent {
+        Some(exponent @ -4..=6) => {
+            let decimals: i32 = digits as i32 - 1 - exponent;
+            format!("{x:.*}", decimals.max(0) as usize)
+        }
+        _ => scientific,
+    }
 }

@@ -43,9 +43,9 @@ fn text_is_to_be_read() {
       length                     3.14159   units
       bending energy             3.14159   ∫κ² ds, 1/units
         without units            9.86960   length · ∫κ² ds
-      variation energy           0.00000   ∫κ′² ds, 1/units³
+      variation energy                 0   ∫κ′² ds, 1/units³
       largest curvature          1.00000   |κ|, 1/units
-      largest variation          0.00000   |κ′|, 1/units²
+      largest variation                0   |κ′|, 1/units²
       turning                    3.14159   ∫|κ| ds, radians
       curvature extrema                0   between knots
       inflections                      0

@@ -98,7 +98,7 @@ impl Picture {
     /// `curvature` has none there is a gap.
     pub fn curvature_map(title: &str, curvature: &dyn Fn(ChordAngles) -> Option<f64>) -> Picture {
         /// Odd, so that no place lies where families have exact symmetries, and rounding decides nothing.
-        const CELLS: usize = 47;
+        const CELLS: usize = 41;
         /// At half a turn itself many families have nothing.
         const EDGE: f64 = 0.996 * PI;
         let pitch = SQUARE / CELLS as f64;
@@ -115,16 +115,33 @@ impl Picture {
         let mut bands: [BezPath; 10] = Default::default();
         let (mut lines, mut zero) = (BezPath::new(), BezPath::new());
         for j in 0..CELLS {
+            // Neighbours of one colour are one rectangle, which makes small files.
+            let mut run: Option<(usize, Rect)> = None;
             for i in 0..CELLS {
                 let corners =
                     [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
                 let [Some(a), Some(b), Some(c), Some(d)] = corners else { continue };
+                let (low, high) = range(&[a, b, c, d]);
+                if band(low) == band(high) {
+                    let square = Rect::from_points(a.0, c.0);
+                    run = Some(match run {
+                        Some((here, r)) if here == band(low) && r.x1 == square.x0 => {
+                            (here, r.union(square))
+                        }
+                        before => {
+                            flush(&mut bands, before);
+                            (band(low), square)
+                        }
+                    });
+                    continue;
+                }
                 fill(&mut bands, [a, b, c, d]);
                 for level in LEVELS {
                     let lines = if level == 0.0 { &mut zero } else { &mut lines };
                     contour_line(lines, [a, b, c, d], squeezed(level));
                 }
             }
+            flush(&mut bands, run);
         }
         let mark = |(path, (class, rgb)): (BezPath, (&'static str, [u8; 3]))| Mark {
             class,
@@ -185,6 +202,13 @@ fn range(corners: &[(Point, f64)]) -> (f64, f64) {
 /// The colour of a squeezed curvature.
 fn band(value: f64) -> usize {
     LEVELS.iter().take_while(|level| value > squeezed(**level)).count()
+}
+
+/// Fills a run of squares with their colour.
+fn flush(bands: &mut [BezPath; 10], run: Option<(usize, Rect)>) {
+    if let Some((band, area)) = run {
+        bands[band].extend(area.to_path(0.1));
+    }
 }
 
 /// Divides a square between the colours that it has.
