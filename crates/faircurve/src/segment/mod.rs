@@ -542,6 +542,30 @@ impl Segment {
         self.places_from_local(&places)
     }
 
+    /// Arc lengths inside the segment at which it isn't smooth or nearly so, ascending: joints,
+    /// cusps, sharp bends. None on lines and spirals.
+    pub fn breaks(&self) -> Vec<f64> {
+        match &self.shape {
+            Shape::Line | Shape::Spiral(_) => Vec::new(),
+            Shape::Unit(piece) => {
+                let stops = self.stops(piece);
+                stops[1..stops.len() - 1].to_vec()
+            }
+            Shape::Chain(members) => {
+                let mut before = 0.0;
+                let mut places = Vec::new();
+                for (i, member) in members.iter().enumerate() {
+                    if i > 0 {
+                        places.push(before);
+                    }
+                    places.extend(member.breaks().into_iter().map(|s| before + s));
+                    before += member.length;
+                }
+                places
+            }
+        }
+    }
+
     /// The smallest box that holds the segment, to rounding.
     pub fn bounding_box(&self) -> Rect {
         let mut bounds = Rect::from_points(self.start, self.end);
@@ -693,9 +717,8 @@ impl Segment {
         (&members[members.len() - 1], rest)
     }
 
-    /// Arc lengths at which `f` changes its sign, found between 16 places in each smooth stretch.
-    fn sign_changes(&self, piece: &UnitPiece, f: impl Fn(f64) -> f64) -> Vec<f64> {
-        const PLACES: usize = 16;
+    /// Both ends and the breaks between them, as arc lengths of the segment, ascending.
+    fn stops(&self, piece: &UnitPiece) -> Vec<f64> {
         let scale = self.scale(piece);
         let mut stops: Vec<f64> = piece
             .curve
@@ -704,19 +727,32 @@ impl Segment {
             .map(|s| if piece.backwards { piece.to - s } else { s - piece.from } * scale)
             .collect();
         stops.sort_by(f64::total_cmp);
+        stops
+    }
+
+    /// Arc lengths at which `f` changes its sign, found between 16 places in each smooth stretch, and
+    /// at the breaks between them.
+    fn sign_changes(&self, piece: &UnitPiece, f: impl Fn(f64) -> f64) -> Vec<f64> {
+        const PLACES: usize = 16;
+        let stops = self.stops(piece);
         let mut places = Vec::new();
+        let mut before = None;
         for ends in stops.windows(2) {
             // Just inside, since at a joint or a cusp the function is that of the other side.
             let inside = |i: usize| {
                 let along = (i as f64 / PLACES as f64).clamp(1e-9, 1.0 - 1e-9);
                 ends[0] + (ends[1] - ends[0]) * along
             };
+            if before.is_some_and(|before| before * f(inside(0)) < 0.0) {
+                places.push(ends[0]);
+            }
             for i in 0..PLACES {
                 let (from, to) = (inside(i), inside(i + 1));
                 if f(from) * f(to) < 0.0 {
                     places.extend(monotone_root(&f, from, to));
                 }
             }
+            before = Some(f(inside(PLACES)));
         }
         places
     }
