@@ -8,10 +8,10 @@ use std::fmt;
 use crate::outline::Join;
 use crate::spline::Spline;
 
-use super::{euler, spiro};
+use super::{circle, euler, kurgla1, spiro};
 
 /// Every spline, in the order in which lists show them.
-pub const ENTRIES: &[&SplineInfo] = &[&spiro::INFO, &euler::INFO];
+pub const ENTRIES: &[&SplineInfo] = &[&spiro::INFO, &euler::INFO, &kurgla1::INFO, &circle::INFO];
 
 /// A catalogue row: what a spline is called, what it takes and what it claims.
 #[derive(Debug)]

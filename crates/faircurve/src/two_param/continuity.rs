@@ -35,11 +35,31 @@ pub struct Continuity<M> {
 
 impl<M: CurvatureMap> TangentRule for Continuity<M> {
     fn tangents(&self, run: &Run) -> Tangents {
-        let mut system = TangentSystem::new(self, run);
-        let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
-        let outcome = newton(&mut system, &mut matrix, Limits { iterations: 16, patience: 8 });
-        system.finish(outcome.iterations)
+        solved(TangentSystem::new(self, run), run)
     }
+}
+
+impl<M: CurvatureMap> Continuity<M> {
+    /// The tangents found when starting from these directions at the run's knots.
+    pub(crate) fn tangents_from(&self, run: &Run, directions: &[f64]) -> Tangents {
+        let mut system = TangentSystem::new(self, run);
+        for (i, direction_here) in directions.iter().enumerate() {
+            let is_last = !run.closed && i + 1 == directions.len();
+            system.tangents[i] = if is_last {
+                wrap_angle(direction_here - direction(run.chord(i - 1)))
+            } else {
+                wrap_angle(direction(run.chord(i)) - direction_here)
+            };
+            system.keep_in_range(i);
+        }
+        solved(system, run)
+    }
+}
+
+fn solved<M: CurvatureMap>(mut system: TangentSystem<'_, M>, run: &Run) -> Tangents {
+    let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
+    let outcome = newton(&mut system, &mut matrix, Limits { iterations: 16, patience: 8 });
+    system.finish(outcome.iterations)
 }
 
 /// What must hold at a knot.

@@ -1,6 +1,6 @@
 //! The spline of a rule for tangents and a shape for segments.
 
-use super::shape::SegmentShape;
+use super::shape::{SegmentShape, StandIn};
 use super::tangents::{TangentRule, Tangents};
 use crate::catalog::SplineInfo;
 use crate::frame::wrap_angle;
@@ -26,24 +26,44 @@ impl<R: TangentRule, S: SegmentShape> TwoParamSpline<R, S> {
 
     fn draw(&self, run: &Run, tangents: Tangents) -> RunSolution {
         let n = run.knots.len();
-        let segments: Vec<Segment> = tangents
+        let (segments, stand_ins): (Vec<Segment>, Vec<Option<StandIn>>) = tangents
             .ends
             .iter()
             .enumerate()
             .map(|(i, ends)| {
                 let (start, end) = (run.knots[i].point, run.knots[(i + 1) % n].point);
-                self.shape.place(start, end, ends)
+                self.shape.place_or_stand_in(start, end, ends)
             })
-            .collect();
+            .unzip();
+        // Knots at which a stand-in has another curvature than it should.
+        let mut is_loose = vec![false; n];
+        for (i, stand_in) in stand_ins.iter().enumerate() {
+            if self.keeps_curvature() && stand_in.is_some_and(|stand_in| !stand_in.keeps_curvature)
+            {
+                (is_loose[i], is_loose[(i + 1) % n]) = (true, true);
+            }
+        }
         let mut residual = tangents.residual();
+        let interior = || if run.closed { 0..n } else { 1..n - 1 };
         if self.info.continuity() > 0 {
-            residual = residual.max(largest_jump(run, &segments, jump_of_direction));
+            residual = residual.max(largest_jump(interior(), &segments, jump_of_direction));
         }
         if self.keeps_curvature() {
-            residual = residual.max(largest_jump(run, &segments, jump_of_curvature));
+            let firm = interior().filter(|&i| !is_loose[i]);
+            residual = residual.max(largest_jump(firm, &segments, jump_of_curvature));
         }
         let unmet = |i: &usize| !(tangents.mismatch[*i] <= SOLVED);
-        let relaxed = (0..n).filter(unmet).map(|i| self.unmet(i)).collect();
+        let mut relaxed: Vec<_> = (0..n).filter(unmet).map(|i| self.unmet(i)).collect();
+        for (i, stand_in) in stand_ins.iter().enumerate() {
+            relaxed.extend(stand_in.map(|stand_in| Relaxation {
+                place: Place::Segment(i),
+                asked: stand_in.asked,
+                got: stand_in.got,
+                reason: stand_in.reason.to_owned(),
+            }));
+        }
+        let loose = interior().filter(|&i| is_loose[i] && !unmet(&i));
+        relaxed.extend(loose.map(|i| self.loosened(i)));
         let (adapted, iterations) = (tangents.adapted, tangents.iterations);
         RunSolution { segments, relaxed, adapted, iterations, residual, ..RunSolution::default() }
     }
@@ -63,13 +83,25 @@ impl<R: TangentRule, S: SegmentShape> TwoParamSpline<R, S> {
                 .to_owned(),
         }
     }
+
+    /// A knot at which a segment's stand-in has another curvature than its neighbour.
+    fn loosened(&self, knot: usize) -> Relaxation {
+        Relaxation {
+            reason: "a segment beside this knot has another shape, with another curvature"
+                .to_owned(),
+            ..self.unmet(knot)
+        }
+    }
 }
 
-/// The largest jump of something at a knot where two segments meet.
-fn largest_jump(run: &Run, segments: &[Segment], jump: fn(&Segment, &Segment) -> f64) -> f64 {
-    let n = run.knots.len();
-    let interior = if run.closed { 0..n } else { 1..n - 1 };
-    interior.map(|i| jump(&segments[(i + n - 1) % n], &segments[i])).fold(0.0, f64::max)
+/// The largest jump of something at knots where two segments meet.
+fn largest_jump(
+    knots: impl Iterator<Item = usize>,
+    segments: &[Segment],
+    jump: fn(&Segment, &Segment) -> f64,
+) -> f64 {
+    let n = segments.len();
+    knots.map(|i| jump(&segments[(i + n - 1) % n], &segments[i])).fold(0.0, f64::max)
 }
 
 /// Of the direction of travel, in radians.

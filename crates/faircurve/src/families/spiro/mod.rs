@@ -1,6 +1,7 @@
 //! The Spiro spline: polynomial spirals joined as Table 7.1 says (thesis sections 7.3, 7.4).
 
 mod hermite;
+mod segments;
 
 use kurbo::Point;
 use num_complex::Complex64;
@@ -15,6 +16,8 @@ use crate::outline::Join;
 use crate::plan::Run;
 use crate::segment::{PolynomialSpiral, Segment};
 use crate::spline::{Effort, RunSolution, Spline};
+
+pub use segments::{SpiroSegments, fit_spiral};
 
 /// The catalogue's row.
 pub const INFO: SplineInfo = SplineInfo {
