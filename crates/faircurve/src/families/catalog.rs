@@ -8,16 +8,18 @@ use std::fmt;
 use crate::outline::Join;
 use crate::spline::Spline;
 
-use super::{bespoke, euler, hobby, ikarus, kappa, lagrange, polygon, spiro};
+use super::{bespoke, circle, euler, hobby, ikarus, kappa, kurgla1, lagrange, polygon, spiro};
 
 /// Every spline, in the order in which lists show them.
 #[rustfmt::skip]
 pub const ENTRIES: &[&SplineInfo] = &[
     &spiro::INFO,
     &euler::INFO,
+    &kurgla1::INFO,
     &hobby::INFO,
     &bespoke::INFO,
     &kappa::INFO,
+    &circle::INFO,
     &ikarus::INFO,
     &lagrange::INFO,
     &polygon::INFO,

@@ -2,10 +2,12 @@
 
 pub mod bespoke;
 pub mod catalog;
+pub mod circle;
 pub mod euler;
 pub mod hobby;
 pub mod ikarus;
 pub mod kappa;
+pub mod kurgla1;
 pub mod lagrange;
 pub mod polygon;
 pub mod potrace;

@@ -3,11 +3,13 @@
 //! Nothing here knows of knots or splines.
 
 pub mod block_tridiagonal;
+pub(crate) mod elastica;
 pub mod fresnel;
 pub(crate) mod gauss_legendre;
 pub mod newton;
 pub(crate) mod quadrature;
 pub mod roots;
+pub(crate) mod series;
 pub mod spiro_integral;
 pub mod spiro_series;
 pub(crate) mod trig;

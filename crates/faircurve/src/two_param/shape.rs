@@ -19,10 +19,33 @@ pub struct SegmentEnds {
     pub context: SegmentContext,
 }
 
+/// Another shape in the place of the one asked for: same tangents, perhaps other curvatures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StandIn {
+    /// The name of the shape asked for.
+    pub asked: &'static str,
+    /// The name of the shape drawn.
+    pub got: &'static str,
+    /// Whether the segment has the end curvatures all the same.
+    pub keeps_curvature: bool,
+    /// Why, in words for a designer.
+    pub reason: &'static str,
+}
+
 /// Fills segments.
 pub trait SegmentShape: fmt::Debug + Send + Sync {
     /// The segment from `start` to `end`, which differ; finite for all angles.
     fn place(&self, start: Point, end: Point, ends: &SegmentEnds) -> Segment;
+
+    /// Like [`place`](Self::place), and what stands in where this shape can't fill the segment.
+    fn place_or_stand_in(
+        &self,
+        start: Point,
+        end: Point,
+        ends: &SegmentEnds,
+    ) -> (Segment, Option<StandIn>) {
+        (self.place(start, end, ends), None)
+    }
 
     /// Whether the segment has the end curvatures that it is told, or those of the map that it
     /// belongs to; if not, only tangents are continuous.
@@ -32,6 +55,15 @@ pub trait SegmentShape: fmt::Debug + Send + Sync {
 impl SegmentShape for Box<dyn SegmentShape> {
     fn place(&self, start: Point, end: Point, ends: &SegmentEnds) -> Segment {
         (**self).place(start, end, ends)
+    }
+
+    fn place_or_stand_in(
+        &self,
+        start: Point,
+        end: Point,
+        ends: &SegmentEnds,
+    ) -> (Segment, Option<StandIn>) {
+        (**self).place_or_stand_in(start, end, ends)
     }
 
     fn keeps_curvature(&self) -> bool {

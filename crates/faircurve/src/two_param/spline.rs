@@ -1,6 +1,6 @@
 //! The spline of a rule for tangents and a shape for segments.
 
-use super::shape::SegmentShape;
+use super::shape::{SegmentShape, StandIn};
 use super::tangents::{TangentRule, Tangents};
 use crate::catalog::SplineInfo;
 use crate::frame::wrap_angle;
@@ -27,16 +27,25 @@ impl<R: TangentRule, S: SegmentShape> TwoParamSpline<R, S> {
     /// The curve through the knots of a run with these tangents.
     pub(crate) fn draw(&self, run: &Run, tangents: Tangents) -> RunSolution {
         let n = run.knots.len();
-        let segments: Vec<Segment> = tangents
+        let (segments, stand_ins): (Vec<Segment>, Vec<Option<StandIn>>) = tangents
             .ends
             .iter()
             .enumerate()
             .map(|(i, ends)| {
                 let (start, end) = (run.knots[i].point, run.knots[(i + 1) % n].point);
-                self.shape.place(start, end, ends)
+                self.shape.place_or_stand_in(start, end, ends)
             })
-            .collect();
-        self.assess(run, tangents, segments)
+            .unzip();
+        let mut solution = self.assess(run, tangents, segments);
+        for (i, stand_in) in stand_ins.into_iter().enumerate() {
+            solution.relaxed.extend(stand_in.map(|stand_in| Relaxation {
+                place: Place::Segment(i),
+                asked: stand_in.asked,
+                got: stand_in.got,
+                reason: stand_in.reason.to_owned(),
+            }));
+        }
+        solution
     }
 
     /// What holds of a drawn run: knots whose equation isn't met, and those where the segments turn out
