@@ -55,9 +55,12 @@ impl<C: ParametricCurve> Measured<C> {
     pub fn new(curve: C) -> Self {
         let mut measured = Measured { curve, panels: Vec::new(), length: 0.0, breaks: Vec::new() };
         let whole = measured.arc(0.0, 1.0);
+        // What lengths are known to. Where a long curve nearly stands still, its velocity is a small
+        // difference of large numbers: less would be noise, and panels without end.
+        let noise = 4.0 * f64::EPSILON * (1.0 + whole);
         let start = tangent(&measured.curve, 0.0, true).arg();
         let mut direction = start;
-        measured.measure(0.0, 1.0, whole, &mut direction, 50);
+        measured.measure([0.0, 1.0], whole, noise, &mut direction, 50);
         measured.length = measured.length.max(1.0);
         measured.breaks = measured.panels.iter().skip(1).map(|panel| panel.s).collect();
         measured
@@ -68,11 +71,18 @@ impl<C: ParametricCurve> Measured<C> {
     }
 
     /// Appends the panels from `u` to `to`.
-    fn measure(&mut self, u: f64, to: f64, whole: f64, direction: &mut f64, depth: usize) {
+    fn measure(
+        &mut self,
+        [u, to]: [f64; 2],
+        whole: f64,
+        noise: f64,
+        direction: &mut f64,
+        depth: usize,
+    ) {
         let middle = (u + to) / 2.0;
         let (left, right) = (self.arc(u, middle), self.arc(middle, to));
         let is_short = whole < NEGLIGIBLE;
-        let is_even = (left + right - whole).abs() <= 4.0 * f64::EPSILON * (1.0 + whole);
+        let is_even = (left + right - whole).abs() <= noise;
         if depth == 0 || is_short || (is_even && self.turn(u, to) < MOST_TURN) {
             self.panels.push(Panel { u, s: self.length, direction: *direction });
             self.length += left + right;
@@ -83,8 +93,8 @@ impl<C: ParametricCurve> Measured<C> {
             *direction += (after * b.conj()).arg();
             return;
         }
-        self.measure(u, middle, left, direction, depth - 1);
-        self.measure(middle, to, right, direction, depth - 1);
+        self.measure([u, middle], left, noise, direction, depth - 1);
+        self.measure([middle, to], right, noise, direction, depth - 1);
     }
 
     /// The sum of what the curve turns between five places.

@@ -56,7 +56,7 @@ impl Parabolas {
     }
 
     /// The same in at most so many steps, whether they settle or not: knots whose parabolas don't are
-    /// given up, the worst first. They lie in the middle of the parameter, not at the vertex.
+    /// given up, the worst first. They lie where their chords divide the parameter, not at the vertex.
     pub(super) fn search(run: &Run, most: usize) -> Parabolas {
         /// Shares of the steps: before any knot is given up, after some have been, and at the end.
         const SHARES: [usize; 3] = [2, 16, 6];
@@ -68,7 +68,7 @@ impl Parabolas {
         let mut count = 1;
         while moved > NEAR || parabolas.has_vertex_at_joint(&rounded) {
             if parabolas.iterations + most / SHARES[1] + most / SHARES[2] > most {
-                // Then joints and vertices stay in the middle: that has a solution for any knots.
+                // Then joints stay in the middle and knots where they are: that has a solution always.
                 let iterations = parabolas.iterations;
                 parabolas =
                     Parabolas { fixed_joints: true, iterations, ..Parabolas::new(&rounded) };
@@ -101,7 +101,7 @@ impl Parabolas {
             (0..n).filter(|&i| !is_end(run, i) && !self.given_up[i]).collect();
         worst.sort_by(|&i, &j| self.mismatch[j].total_cmp(&self.mismatch[i]));
         for i in worst.into_iter().take(count) {
-            (self.given_up[i], self.vertex[i]) = (true, 0.5);
+            (self.given_up[i], self.vertex[i]) = (true, between_chords(run, i));
         }
     }
 
@@ -121,7 +121,7 @@ impl Parabolas {
         let any = self.has_vertex_at_joint(run);
         for i in 0..self.middle.len() {
             if self.is_at_joint(run, i) {
-                (self.given_up[i], self.vertex[i]) = (true, 0.5);
+                (self.given_up[i], self.vertex[i]) = (true, between_chords(run, i));
             }
         }
         any
@@ -418,6 +418,15 @@ fn vertex(cubic: &[f64; 4], guess: f64) -> f64 {
         t = next;
     }
     t
+}
+
+/// The parameter of a knot that is given up: as the chords on both sides divide their sum.
+fn between_chords(run: &Run, knot: usize) -> f64 {
+    /// Nearer to a joint the control points would hardly be determined.
+    const NEAREST: f64 = 0.01;
+    let n = run.knots.len();
+    let (before, after) = (run.chord((knot + n - 1) % n).hypot(), run.chord(knot).hypot());
+    (before / (before + after)).clamp(NEAREST, 1.0 - NEAREST)
 }
 
 /// Control points that move by less, in units of the longest chord, have settled as far as rounded
