@@ -45,7 +45,7 @@ struct Panel {
 
 /// Radians that a panel may turn.
 const MOST_TURN: f64 = 1.0;
-/// Arc lengths below this are none: a panel at a cusp ends there.
+/// Arc lengths below this, or below this much of a long curve, are none: a panel at a cusp ends there.
 const NEGLIGIBLE: f64 = 1e-17;
 /// Larger curvatures (at cusps) are written as this.
 const LARGEST: f64 = 1e100;
@@ -57,7 +57,9 @@ impl<C: ParametricCurve> Measured<C> {
         let whole = measured.arc(0.0, 1.0);
         let start = tangent(&measured.curve, 0.0, true).arg();
         let mut direction = start;
-        measured.measure(0.0, 1.0, whole, &mut direction, 50);
+        // Long curves on a short chord are known to the rounding of their length.
+        let size = 1.0 + whole;
+        measured.measure((0.0, 1.0), whole, size, &mut direction, 50);
         measured.length = measured.length.max(1.0);
         measured.breaks = measured.panels.iter().skip(1).map(|panel| panel.s).collect();
         measured
@@ -67,12 +69,19 @@ impl<C: ParametricCurve> Measured<C> {
         gauss_16(&|u| self.curve.velocity(u).norm(), from, to)
     }
 
-    /// Appends the panels from `u` to `to`.
-    fn measure(&mut self, u: f64, to: f64, whole: f64, direction: &mut f64, depth: usize) {
+    /// Appends the panels from `u` to `to`; `size` is about that of the whole curve, at least 1.
+    fn measure(
+        &mut self,
+        (u, to): (f64, f64),
+        whole: f64,
+        size: f64,
+        direction: &mut f64,
+        depth: usize,
+    ) {
         let middle = (u + to) / 2.0;
         let (left, right) = (self.arc(u, middle), self.arc(middle, to));
-        let is_short = whole < NEGLIGIBLE;
-        let is_even = (left + right - whole).abs() <= 4.0 * f64::EPSILON * (1.0 + whole);
+        let is_short = whole < NEGLIGIBLE * size;
+        let is_even = (left + right - whole).abs() <= 4.0 * f64::EPSILON * size.max(1.0 + whole);
         if depth == 0 || is_short || (is_even && self.turn(u, to) < MOST_TURN) {
             self.panels.push(Panel { u, s: self.length, direction: *direction });
             self.length += left + right;
@@ -83,8 +92,8 @@ impl<C: ParametricCurve> Measured<C> {
             *direction += (after * b.conj()).arg();
             return;
         }
-        self.measure(u, middle, left, direction, depth - 1);
-        self.measure(middle, to, right, direction, depth - 1);
+        self.measure((u, middle), left, size, direction, depth - 1);
+        self.measure((middle, to), right, size, direction, depth - 1);
     }
 
     /// The sum of what the curve turns between five places.

@@ -14,7 +14,7 @@ fn angles() -> Vec<f64> {
 fn mock_curvature_is_that_of_the_cubic_to_first_order() {
     let tensions = [[1.0, 1.0], [0.75, 2.0], [-1.5, 10.0]];
     for given in tensions {
-        let context = SegmentContext { chord: 1.0, tension: given.map(Some) };
+        let context = SegmentContext { tension: given.map(Some), ..SegmentContext::UNIT };
         for (theta0, theta1) in [(1.0, 0.0), (0.0, 1.0), (0.7, -0.4)] {
             let small = ChordAngles::new(1e-5 * theta0, 1e-5 * theta1);
             let mock = MockCurvature { tension: 1.0 }.curvatures(small, &context);
