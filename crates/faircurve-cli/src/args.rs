@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::error::{ContextKind, ErrorKind};
 use clap::{Args, Parser, Subcommand};
+use faircurve::Effort;
 
 use crate::failure::Failure;
 
@@ -23,8 +24,16 @@ pub(crate) enum Command {
     /// Exit codes: 0, all solved as asked; 3, written, but something could not be met and was
     /// relaxed (each named on stderr); 2, bad input, nothing written.
     Solve(SolveArgs),
-    /// List the splines: parameters, joins, ends and claims.
+    /// List the splines: parameters, joins, ends and claims; or what measuring says of them.
     List(ListArgs),
+    /// Measure curves: lengths, energies, extrema, and what jumps at each knot.
+    ///
+    /// Exit codes as for `solve`.
+    Measure(MeasureArgs),
+    /// Draw the same knots with several splines on one sheet, with curvature combs and numbers.
+    ///
+    /// Exit codes as for `solve`.
+    Compare(CompareArgs),
     /// Help or the version, as text to show.
     #[command(skip)]
     Shown(String),
@@ -100,6 +109,98 @@ pub(crate) struct ListArgs {
     /// `text` or `json`.
     #[arg(long, value_name = "FORMAT", default_value = "text")]
     pub(crate) format: String,
+
+    /// Measure every spline against the properties of good splines, and print the table: takes
+    /// some seconds.
+    #[arg(long)]
+    pub(crate) laws: bool,
+}
+
+/// What to work on: the same for every command but `solve`, which has its own.
+#[derive(Debug, Args)]
+pub(crate) struct DrawingArgs {
+    /// Drawings to read; `-` is stdin.
+    #[arg(value_name = "IN", required = true)]
+    pub(crate) inputs: Vec<PathBuf>,
+
+    /// How long to search where a contour is hard, before something is relaxed; see `solve`.
+    /// Default: 1.
+    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, help_heading = "Solving")]
+    pub(crate) effort: Option<String>,
+
+    /// Format of the input: json, csv or sfd. Default: by the file's extension; json for stdin.
+    #[arg(long, value_name = "KIND", help_heading = "Choosing")]
+    pub(crate) from: Option<String>,
+
+    /// Take only the glyph of this name; may be given several times, and that order is kept.
+    #[arg(long = "glyph", value_name = "NAME", help_heading = "Choosing")]
+    pub(crate) glyphs: Vec<String>,
+
+    /// Take only this layer, such as `Fore`.
+    #[arg(long, value_name = "NAME", help_heading = "Choosing")]
+    pub(crate) layer: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MeasureArgs {
+    #[command(flatten)]
+    pub(crate) drawing: DrawingArgs,
+
+    /// Solve every contour with this spline, whatever the documents say; `faircurve list` has the
+    /// names. Default: as the documents say, or `spiro`.
+    #[arg(long, value_name = "NAME", help_heading = "Solving")]
+    pub(crate) spline: Option<String>,
+
+    /// Set a parameter of the spline: that of --spline, or else every one that the documents name.
+    #[arg(long = "param", value_name = "K=V", help_heading = "Solving")]
+    pub(crate) params: Vec<String>,
+
+    /// Where to write; `-` is stdout. The file appears whole or not at all.
+    #[arg(short, long, value_name = "OUT", default_value = "-", help_heading = "Writing")]
+    pub(crate) output: PathBuf,
+
+    /// `text` or `json`. Default: json if OUT ends in .json, or else text.
+    #[arg(long, value_name = "FORMAT", help_heading = "Writing")]
+    pub(crate) format: Option<String>,
+
+    /// Exit with 0 though something was relaxed.
+    #[arg(long)]
+    pub(crate) allow_relaxed: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CompareArgs {
+    #[command(flatten)]
+    pub(crate) drawing: DrawingArgs,
+
+    /// The splines, a panel each: names with commas between them, each with its parameters after
+    /// colons, as in `euler,log-aesthetic:alpha=1.78:end=arc`. A comma in parentheses doesn't
+    /// separate. Default: all of `faircurve list`.
+    #[arg(long, value_name = "NAMES", help_heading = "Solving")]
+    pub(crate) splines: Option<String>,
+
+    /// Where to write; `-` is stdout. The file appears whole or not at all.
+    #[arg(short, long, value_name = "OUT", default_value = "-", help_heading = "Writing")]
+    pub(crate) output: PathBuf,
+
+    /// `svg` or `png`. Default: by the extension of OUT; svg for stdout.
+    #[arg(long, value_name = "FORMAT", help_heading = "Writing")]
+    pub(crate) format: Option<String>,
+
+    /// Width of a PNG in pixels. Default: as wide as two million pixels allow.
+    #[arg(long, value_name = "PIXELS", allow_negative_numbers = true, help_heading = "Writing")]
+    pub(crate) width: Option<String>,
+
+    /// Exit with 0 though something was relaxed.
+    #[arg(long)]
+    pub(crate) allow_relaxed: bool,
+}
+
+/// How far to search, as given with --effort.
+pub(crate) fn effort(text: Option<&str>) -> Result<Effort, Failure> {
+    let allowed = |factor: &f64| *factor >= 0.0 && factor.is_finite();
+    let read = |text: &str| number("effort", text, "a number from 0", allowed);
+    Ok(text.map(read).transpose()?.map_or_else(Effort::default, Effort::times))
 }
 
 /// Reads the command line.

@@ -9,7 +9,7 @@ use faircurve_format::{Document, Kind};
 use crate::failure::Failure;
 
 /// A document and the name of the file that it is from.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Source {
     pub(crate) name: String,
     pub(crate) document: Document,

@@ -8,13 +8,16 @@ use serde::Serialize;
 
 use crate::args::ListArgs;
 use crate::failure::Failure;
+use crate::laws;
 use crate::output::to_stdout;
 
 pub(crate) fn run(args: &ListArgs) -> Result<ExitCode, Failure> {
-    let text = match args.format.as_str() {
-        "text" => as_text(),
-        "json" => as_json()?,
-        other => {
+    let text = match (args.format.as_str(), args.laws) {
+        ("text", false) => as_text(),
+        ("json", false) => as_json()?,
+        ("text", true) => laws::as_text()?,
+        ("json", true) => laws::as_json()?,
+        (other, _) => {
             return Err(Failure::new(format!("lists have no format `{other}`"))
                 .hint(suggest(other, ["text", "json"])));
         }

@@ -4,9 +4,12 @@
 //! usage, nothing written.
 
 mod args;
+mod compare;
 mod failure;
 mod input;
+mod laws;
 mod list;
+mod measure;
 mod output;
 mod progress;
 mod report;
@@ -29,6 +32,8 @@ fn run(command: Command) -> Result<ExitCode, Failure> {
     match command {
         Command::Solve(args) => solve::run(&args),
         Command::List(args) => list::run(&args),
+        Command::Measure(args) => measure::run(&args),
+        Command::Compare(args) => compare::run(&args),
         Command::Shown(text) => output::to_stdout(text.as_bytes()).map(|()| ExitCode::SUCCESS),
     }
 }

@@ -59,27 +59,89 @@ struct Options {
     width: Option<u32>,
 }
 
+/// Where to write.
+#[derive(Debug)]
+pub(crate) struct Target(Option<PathBuf>);
+
+impl Target {
+    /// The file, or stdout for `-`; refuses what could not be written before any work is done.
+    pub(crate) fn new(output: &Path, inputs: &[PathBuf]) -> Result<Self, Failure> {
+        if is_stdio(output) {
+            return Ok(Target(None));
+        }
+        check_target(output, inputs)?;
+        Ok(Target(Some(output.to_owned())))
+    }
+
+    /// Refuses binary data on a terminal.
+    pub(crate) fn check_png(&self) -> Result<(), Failure> {
+        if self.0.is_none() && io::stdout().is_terminal() {
+            return Err(Failure::new("a terminal can't show PNG")
+                .hint("write it to a file: -o drawing.png"));
+        }
+        Ok(())
+    }
+
+    /// Puts the whole file where it belongs.
+    pub(crate) fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
+        match &self.0 {
+            None => to_stdout(bytes),
+            Some(path) => to_file(path, bytes).map_err(|error| {
+                Failure::new(unwritable(&error)).within(&path.display().to_string())
+            }),
+        }
+    }
+}
+
+/// The width given for a PNG, in pixels.
+pub(crate) fn png_width(text: Option<&str>) -> Result<Option<u32>, Failure> {
+    let expected = format!("a whole number from 1 to {}", png::LARGEST_SIDE);
+    let read = |text: &str| {
+        args::number("width", text, &expected, |n| (1..=png::LARGEST_SIDE).contains(n))
+    };
+    text.map(read).transpose()
+}
+
+/// The format that is asked for, or that the name of the output ends in, or else the first of those
+/// that there are.
+pub(crate) fn format_among(
+    names: &[&'static str],
+    asked: Option<&str>,
+    output: &Path,
+) -> Result<&'static str, Failure> {
+    let find = |name: &str| names.iter().find(|known| **known == name).copied();
+    if let Some(asked) = asked {
+        return find(asked).ok_or_else(|| {
+            Failure::new(format!("there is no output format `{asked}`"))
+                .hint(suggest(asked, names.iter().copied()))
+        });
+    }
+    let extension = output.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    find(&extension).or(is_stdio(output).then_some(names[0])).ok_or_else(|| {
+        let endings: Vec<String> = names.iter().map(|name| format!(".{name}")).collect();
+        Failure::new("the name doesn't tell the format to write")
+            .hint(format!("end it in {}, or add --format", endings.join(" or ")))
+            .within(&output.display().to_string())
+    })
+}
+
 /// Where to write what.
 #[derive(Debug)]
 pub(crate) struct Output {
     format: &'static Format,
     options: Options,
-    target: Option<PathBuf>,
+    target: Target,
 }
 
 impl Output {
     /// What the command line asks for; refuses what could not be written before any work is done.
     pub(crate) fn new(args: &SolveArgs) -> Result<Self, Failure> {
-        let target = (!is_stdio(&args.output)).then(|| args.output.clone());
-        let format = format_of(args, target.as_deref())?;
+        let file = (!is_stdio(&args.output)).then_some(&*args.output);
+        let format = format_of(args, file)?;
         let options = options(args, format)?;
-        match &target {
-            Some(path) => check_target(path, &args.inputs)?,
-            None if format.name == "png" && io::stdout().is_terminal() => {
-                return Err(Failure::new("a terminal can't show PNG")
-                    .hint("write it to a file: -o drawing.png"));
-            }
-            None => {}
+        let target = Target::new(&args.output, &args.inputs)?;
+        if format.name == "png" {
+            target.check_png()?;
         }
         Ok(Output { format, options, target })
     }
@@ -91,12 +153,7 @@ impl Output {
 
     /// Puts the whole file where it belongs.
     pub(crate) fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
-        match &self.target {
-            None => to_stdout(bytes),
-            Some(path) => to_file(path, bytes).map_err(|error| {
-                Failure::new(unwritable(&error)).within(&path.display().to_string())
-            }),
-        }
+        self.target.write(bytes)
     }
 }
 
@@ -150,14 +207,10 @@ fn options(args: &SolveArgs, format: &Format) -> Result<Options, Failure> {
             (1..=100_000).contains(n)
         })
     };
-    let width = |text: &str| {
-        let expected = format!("a whole number from 1 to {}", png::LARGEST_SIDE);
-        args::number("width", text, &expected, |n| (1..=png::LARGEST_SIDE).contains(n))
-    };
     Ok(Options {
         show,
         samples: args.samples.as_deref().map(samples).transpose()?,
-        width: args.width.as_deref().map(width).transpose()?,
+        width: png_width(args.width.as_deref())?,
     })
 }
 

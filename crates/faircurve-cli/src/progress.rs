@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// Counts glyphs on stderr, if that is a terminal, from a second after its creation on.
+/// Counts glyphs, or whatever is worked on, on stderr, if that is a terminal, from a second after its creation on.
 #[derive(Debug)]
 pub(crate) struct Progress {
     bar: ProgressBar,
@@ -18,9 +18,14 @@ impl Progress {
     const PATIENCE: Duration = Duration::from_secs(1);
 
     pub(crate) fn new(glyphs: usize) -> Self {
-        let bar = ProgressBar::with_draw_target(Some(glyphs as u64), ProgressDrawTarget::hidden());
-        let style =
-            ProgressStyle::with_template("solving {wide_bar} {pos}/{len} glyphs, {elapsed}");
+        Progress::of("solving", glyphs, "glyphs")
+    }
+
+    /// Of so many things: `measuring`, 12, `splines`.
+    pub(crate) fn of(doing: &str, count: usize, things: &str) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(count as u64), ProgressDrawTarget::hidden());
+        let template = format!("{doing} {{wide_bar}} {{pos}}/{{len}} {things}, {{elapsed}}");
+        let style = ProgressStyle::with_template(&template);
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         let (end, ended) = channel::<()>();
         let shown = bar.clone();
@@ -33,7 +38,7 @@ impl Progress {
         Progress { bar, _end: end }
     }
 
-    /// One glyph more is done.
+    /// One more is done.
     pub(crate) fn step(&self) {
         self.bar.inc(1);
     }

@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use faircurve::catalog::{self, Params, suggest};
-use faircurve::{Contour, Spline};
+use faircurve::{Contour, Effort, Solution, Spline};
 use faircurve_format::SplineChoice;
 
-use crate::args::SolveArgs;
+use crate::args::{DrawingArgs, MeasureArgs, SolveArgs};
 use crate::failure::Failure;
 use crate::input::Source;
 
@@ -32,9 +32,53 @@ impl Job {
     }
 }
 
+impl Job {
+    /// Solves every contour, each with its spline's name. The first that is at fault fails the whole.
+    pub(crate) fn solve(&self, effort: Effort) -> Result<Vec<(String, Solution)>, Failure> {
+        let solve = |(index, (contour, spline)): (usize, &(Contour, Box<dyn Spline>))| {
+            let solution = faircurve::solve_with(contour, &**spline, effort).map_err(|error| {
+                Failure::new(error.to_string()).hint(error.hint()).within(&self.place(index))
+            })?;
+            Ok((spline.name().to_owned(), solution))
+        };
+        self.contours.iter().enumerate().map(solve).collect()
+    }
+}
+
+/// What a command line says about what to solve, and how.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Selection<'a> {
+    pub(crate) glyphs: &'a [String],
+    pub(crate) layer: Option<&'a str>,
+    /// The spline for every contour, whatever the documents say.
+    pub(crate) spline: Option<&'a SplineChoice>,
+    pub(crate) params: &'a [String],
+}
+
 /// The glyphs and layers that the command line picks, in its order, or else the documents'; each
 /// contour with its spline.
 pub(crate) fn select(sources: Vec<Source>, args: &SolveArgs) -> Result<Vec<Job>, Failure> {
+    let spline = args.spline.clone().map(SplineChoice::new);
+    let (glyphs, layer) = (&args.glyphs, args.layer.as_deref());
+    choose(sources, &Selection { glyphs, layer, spline: spline.as_ref(), params: &args.params })
+}
+
+/// The same for `faircurve measure`.
+pub(crate) fn to_measure(sources: Vec<Source>, args: &MeasureArgs) -> Result<Vec<Job>, Failure> {
+    let spline = args.spline.clone().map(SplineChoice::new);
+    let params = &args.params;
+    choose(sources, &Selection { spline: spline.as_ref(), params, ..Selection::of(&args.drawing) })
+}
+
+impl<'a> Selection<'a> {
+    pub(crate) fn of(args: &'a DrawingArgs) -> Self {
+        let (glyphs, layer) = (&args.glyphs, args.layer.as_deref());
+        Selection { glyphs, layer, spline: None, params: &[] }
+    }
+}
+
+/// What a selection picks.
+pub(crate) fn choose(sources: Vec<Source>, args: &Selection<'_>) -> Result<Vec<Job>, Failure> {
     let overrides = Overrides::new(args)?;
     check_names(&sources, args)?;
     let mut jobs = Vec::new();
@@ -61,29 +105,29 @@ pub(crate) fn select(sources: Vec<Source>, args: &SolveArgs) -> Result<Vec<Job>,
     Ok(jobs)
 }
 
-fn picked(args: &SolveArgs, glyph: &str, layer: &str) -> bool {
+fn picked(args: &Selection<'_>, glyph: &str, layer: &str) -> bool {
     (args.glyphs.is_empty() || args.glyphs.iter().any(|name| name == glyph))
-        && args.layer.as_ref().is_none_or(|name| name == layer)
+        && args.layer.is_none_or(|name| name == layer)
 }
 
 /// Every glyph asked for must be there, and so must the layer; and some glyph must have it.
-fn check_names(sources: &[Source], args: &SolveArgs) -> Result<(), Failure> {
+fn check_names(sources: &[Source], args: &Selection<'_>) -> Result<(), Failure> {
     let glyphs = || sources.iter().flat_map(|source| &source.document.glyphs);
     let names: BTreeSet<&str> = glyphs().map(|glyph| glyph.name.as_str()).collect();
     if let Some(asked) = args.glyphs.iter().find(|name| !names.contains(name.as_str())) {
         return Err(unknown("glyph", asked, &names));
     }
-    let Some(asked) = &args.layer else {
+    let Some(asked) = args.layer else {
         return Ok(());
     };
     let layers: BTreeSet<&str> = glyphs().map(|glyph| glyph.layer.as_str()).collect();
-    if !layers.contains(asked.as_str()) {
+    if !layers.contains(asked) {
         return Err(unknown("layer", asked, &layers));
     }
-    for glyph in &args.glyphs {
+    for glyph in args.glyphs {
         let own: BTreeSet<&str> =
             glyphs().filter(|g| g.name == *glyph).map(|g| g.layer.as_str()).collect();
-        if !own.contains(asked.as_str()) {
+        if !own.contains(asked) {
             return Err(unknown(&format!("contour of glyph `{glyph}` in layer"), asked, &own));
         }
     }
@@ -117,15 +161,15 @@ struct Overrides {
 }
 
 impl Overrides {
-    fn new(args: &SolveArgs) -> Result<Self, Failure> {
+    fn new(args: &Selection<'_>) -> Result<Self, Failure> {
         let mut params = Params::new();
-        for text in &args.params {
+        for text in args.params {
             let (name, value) = text.split_once('=').ok_or_else(|| {
                 Failure::new(format!("--param can't be `{text}`")).hint("write it as NAME=VALUE")
             })?;
             params.set(name.trim(), value.trim());
         }
-        let overrides = Overrides { spline: args.spline.clone().map(SplineChoice::new), params };
+        let overrides = Overrides { spline: args.spline.cloned(), params };
         if let Some(choice) = &overrides.spline {
             // Wrong even where there is no contour.
             overrides.build(choice)?;

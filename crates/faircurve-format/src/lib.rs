@@ -19,5 +19,5 @@ mod text;
 pub use document::{Document, DocumentContour, Glyph, SplineChoice};
 pub use error::{FormatError, Location};
 pub use kind::{KINDS, Kind, read};
-pub use picture::{Picture, Show};
+pub use picture::{Panel, Picture, Show};
 pub use solved::{SolvedContour, SolvedGlyph};

@@ -33,6 +33,7 @@ pub mod curve;
 pub mod families;
 pub mod four_param;
 pub mod frame;
+pub mod measure;
 pub mod numeric;
 pub mod outline;
 pub mod plan;

@@ -85,7 +85,8 @@ pub enum Stage {
     Plain,
     /// Hung a segment between the chains on both sides, solved alone.
     Bridged,
-    /// Restarted stretches with other windings and other seeds.
+    /// Restarted stretches with other windings and other seeds; for two-parameter splines, took
+    /// shorter steps from the same start.
     Mended,
     /// Built the curve anew knot by knot.
     Grown,

@@ -36,3 +36,30 @@ fn json_has_the_same() {
     assert_eq!(euler["params"][0]["kind"], "choice");
     assert_eq!(euler["params"][0]["default"], "arc");
 }
+
+#[test]
+fn laws_are_measured_for_every_spline() {
+    let folder = Folder::new();
+    let run = folder.run("list --laws --format json").solved();
+    let file: Value = serde_json::from_str(&run).unwrap();
+    let splines = file["splines"].as_array().unwrap();
+    assert_eq!(splines.len(), ENTRIES.len());
+    for (entry, info) in splines.iter().zip(ENTRIES) {
+        assert_eq!(entry["name"], info.name);
+        let claims = entry["claims"].as_array().unwrap();
+        assert_eq!(claims.len(), info.claims.len());
+        for (claim, given) in claims.iter().zip(info.claims) {
+            assert_eq!(claim["claim"], given.to_string());
+            let verdict = claim["verdict"].as_str().unwrap();
+            assert!(["holds", "contradicted", "unknown"].contains(&verdict));
+            assert_eq!(claim["number"].is_null(), verdict == "unknown");
+        }
+    }
+    let text = folder.run("list --laws").solved();
+    let head =
+        "  spline   tangents   continuity   extensionality   roundness   robustness   locality";
+    let words = |line: &str| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+    assert!(text.lines().any(|line| words(line) == words(head)), "{text}");
+    let euler = text.lines().find(|line| line.trim_start().starts_with("euler")).unwrap();
+    assert_eq!(words(euler), ["euler", "G2", "G2", "+++", "+++", "++", "+"]);
+}

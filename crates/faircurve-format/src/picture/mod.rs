@@ -23,7 +23,10 @@
 //! the others: teeth have a greatest length, at which they are cut.
 
 mod comb;
+mod family;
 mod layout;
+mod lettering;
+mod sheet;
 mod symbols;
 
 use faircurve::Status;
@@ -31,6 +34,7 @@ use faircurve::kurbo::{Affine, BezPath, Point, Rect, Shape, Vec2};
 
 use crate::solved::{SolvedContour, SolvedGlyph};
 use comb::CombScale;
+pub use sheet::Panel;
 
 /// What a picture shows besides the outlines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -161,9 +165,7 @@ impl Picture {
             width: bounds.width().max(MARGIN * size),
             height: bounds.height().max(MARGIN * size),
         };
-        // Five significant digits of the size are a hundredth of a hair's breadth.
-        let decimals = (5.0 - size.log10().floor()).clamp(0.0, 100.0) as usize;
-        Picture { view, ground: show.any(), decimals, cells }
+        Picture { view, ground: show.any(), decimals: decimals(size), cells }
     }
 
     /// Width over height.
@@ -175,12 +177,20 @@ impl Picture {
 impl Cell {
     /// What the marks cover, line widths included, in the glyph's own coordinates.
     fn bounds(&self) -> Option<Rect> {
-        let covered = |mark: &Mark| {
-            let half = mark.stroke.map_or(0.0, |stroke| stroke.width / 2.0);
-            mark.path.bounding_box().inflate(half, half)
-        };
-        self.marks.iter().map(covered).reduce(|a, b| a.union(b))
+        self.marks.iter().map(Mark::bounds).reduce(|a, b| a.union(b))
     }
+}
+
+impl Mark {
+    fn bounds(&self) -> Rect {
+        let half = self.stroke.map_or(0.0, |stroke| stroke.width / 2.0);
+        self.path.bounding_box().inflate(half, half)
+    }
+}
+
+/// Five significant digits of the size are a hundredth of a hair's breadth.
+fn decimals(size: f64) -> usize {
+    (5.0 - size.log10().floor()).clamp(0.0, 100.0) as usize
 }
 
 /// The longest side of any glyph, by which everything else is measured; never zero.

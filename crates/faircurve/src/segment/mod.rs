@@ -422,29 +422,41 @@ impl Segment {
     /// a scale by a power of two does, or giving a merged knot its own place.
     pub(crate) fn moved_to(&self, start: Point, end: Point) -> Segment {
         let (from, to) = (self.end - self.start, end - start);
+        // Exactly a power of two and 0 where the chord has only been scaled.
+        let (scale, turn) = (to.hypot() / from.hypot(), turning(from, to));
+        // Multiplication by the ratio of the chords, as complex numbers.
+        let ratio = Vec2::new(from.dot(to), from.cross(to)) / from.hypot2();
+        let moved = |p: Point| {
+            let v = p - self.start;
+            start + Vec2::new(v.x * ratio.x - v.y * ratio.y, v.x * ratio.y + v.y * ratio.x)
+        };
+        self.moved_with(start, end, scale, turn, &moved)
+    }
+
+    /// The same segment between other points, scaled and turned with the whole that it is part of:
+    /// where it is short, its own points don't know its direction well.
+    fn moved_with(
+        &self,
+        start: Point,
+        end: Point,
+        scale: f64,
+        turn: f64,
+        moved: &dyn Fn(Point) -> Point,
+    ) -> Segment {
         let shape = match &self.shape {
             Shape::Line => return Segment::line(start, end),
             Shape::Spiral(_) | Shape::Unit(_) => self.shape.clone(),
             Shape::Chain(members) => {
-                // Multiplication by the ratio of the chords, as complex numbers.
-                let ratio = Vec2::new(from.dot(to), from.cross(to)) / from.hypot2();
-                let moved = |p: Point| {
-                    let v = p - self.start;
-                    start + Vec2::new(v.x * ratio.x - v.y * ratio.y, v.x * ratio.y + v.y * ratio.x)
-                };
                 let last = members.len() - 1;
                 let mut next = start;
                 return Segment::chain(members.iter().enumerate().map(|(i, member)| {
                     let from = next;
                     next = if i == last { end } else { moved(member.end) };
-                    member.moved_to(from, next)
+                    member.moved_with(from, next, scale, turn, moved)
                 }));
             }
         };
-        let length = self.length * (to.hypot() / from.hypot());
-        // Exactly 0 where the chord has only been scaled.
-        let heading = self.heading + turning(from, to);
-        Segment { start, end, shape, length, heading }
+        Segment { start, end, shape, length: self.length * scale, heading: self.heading + turn }
     }
 
     /// Arc lengths at which curvature is zero (inflections), ascending; none on a line. On shapes
@@ -528,6 +540,30 @@ impl Segment {
         }
         places.dedup();
         self.places_from_local(&places)
+    }
+
+    /// Arc lengths inside the segment at which it isn't smooth or nearly so, ascending: joints,
+    /// cusps, sharp bends. None on lines and spirals.
+    pub fn breaks(&self) -> Vec<f64> {
+        match &self.shape {
+            Shape::Line | Shape::Spiral(_) => Vec::new(),
+            Shape::Unit(piece) => {
+                let stops = self.stops(piece);
+                stops[1..stops.len() - 1].to_vec()
+            }
+            Shape::Chain(members) => {
+                let mut before = 0.0;
+                let mut places = Vec::new();
+                for (i, member) in members.iter().enumerate() {
+                    if i > 0 {
+                        places.push(before);
+                    }
+                    places.extend(member.breaks().into_iter().map(|s| before + s));
+                    before += member.length;
+                }
+                places
+            }
+        }
     }
 
     /// The smallest box that holds the segment, to rounding.
@@ -681,9 +717,8 @@ impl Segment {
         (&members[members.len() - 1], rest)
     }
 
-    /// Arc lengths at which `f` changes its sign, found between 16 places in each smooth stretch.
-    fn sign_changes(&self, piece: &UnitPiece, f: impl Fn(f64) -> f64) -> Vec<f64> {
-        const PLACES: usize = 16;
+    /// Both ends and the breaks between them, as arc lengths of the segment, ascending.
+    fn stops(&self, piece: &UnitPiece) -> Vec<f64> {
         let scale = self.scale(piece);
         let mut stops: Vec<f64> = piece
             .curve
@@ -692,19 +727,32 @@ impl Segment {
             .map(|s| if piece.backwards { piece.to - s } else { s - piece.from } * scale)
             .collect();
         stops.sort_by(f64::total_cmp);
+        stops
+    }
+
+    /// Arc lengths at which `f` changes its sign, found between 16 places in each smooth stretch, and
+    /// at the breaks between them.
+    fn sign_changes(&self, piece: &UnitPiece, f: impl Fn(f64) -> f64) -> Vec<f64> {
+        const PLACES: usize = 16;
+        let stops = self.stops(piece);
         let mut places = Vec::new();
+        let mut before = None;
         for ends in stops.windows(2) {
             // Just inside, since at a joint or a cusp the function is that of the other side.
             let inside = |i: usize| {
                 let along = (i as f64 / PLACES as f64).clamp(1e-9, 1.0 - 1e-9);
                 ends[0] + (ends[1] - ends[0]) * along
             };
+            if before.is_some_and(|before| before * f(inside(0)) < 0.0) {
+                places.push(ends[0]);
+            }
             for i in 0..PLACES {
                 let (from, to) = (inside(i), inside(i + 1));
                 if f(from) * f(to) < 0.0 {
                     places.extend(monotone_root(&f, from, to));
                 }
             }
+            before = Some(f(inside(PLACES)));
         }
         places
     }

@@ -1,5 +1,7 @@
 //! Tangents that make curvature continuous, by Newton's method (thesis section 8.3.1).
 
+use std::f64::consts::PI;
+
 use super::curvature_map::{CurvatureMap, EndCurvatures, SegmentContext};
 use super::shape::SegmentEnds;
 use super::tangents::{TangentRule, Tangents, context, ignored_curvature};
@@ -60,27 +62,28 @@ impl<M: CurvatureMap> TangentRule for Continuity<M> {
         let mut taken = 0;
         for attempt in 0.. {
             let most = steps.min(STEPS[attempt.min(STEPS.len() - 1)]);
-            let count = rounded.approach(&mut matrix, SHIFTS[attempt % SHIFTS.len()], most);
-            (taken, steps) = (taken + count, steps - count);
+            let mut count = rounded.approach(&mut matrix, SHIFTS[attempt % SHIFTS.len()], most);
+            let is_last = count >= steps;
+            if is_last {
+                // Nothing is left to find out which: all that don't hold.
+                rounded.give_up_unmet();
+            }
             let worst = rounded.worst();
             if worst.is_none_or(|i| rounded.mismatch[i] <= CLOSE) {
                 exact.tangents.clone_from(&rounded.tangents);
                 exact.given_up.clone_from(&rounded.given_up);
-                taken += newton(&mut exact, &mut matrix, PLAIN).iterations;
-                if exact.worst().is_none_or(|i| exact.mismatch[i] <= SOLVED) {
-                    break;
+                count += newton(&mut exact, &mut matrix, PLAIN).iterations;
+            }
+            taken += count;
+            steps = steps.saturating_sub(count);
+            let is_solved = |i: usize| exact.mismatch[i] <= SOLVED && exact.has_run();
+            match worst {
+                Some(worst) if !is_last && !exact.worst().is_some_and(is_solved) => {
+                    if attempt + 1 >= SHIFTS.len() {
+                        rounded.give_up(worst, &start);
+                    }
                 }
-            }
-            let Some(worst) = worst else { break };
-            if attempt + 1 >= SHIFTS.len() {
-                rounded.give_up(worst, &start);
-            }
-            if steps == 0 {
-                // No time is left to find out which: all that don't hold.
-                (0..n).filter(|&i| rounded.mismatch[i] > CLOSE).for_each(|i| exact.given_up[i] = true);
-                exact.tangents.clone_from(&rounded.tangents);
-                taken += newton(&mut exact, &mut matrix, PLAIN).iterations;
-                break;
+                _ => break,
             }
         }
         Tangents { stage: Stage::Mended, ..exact.finish(taken) }
@@ -272,6 +275,18 @@ impl<'a, M: CurvatureMap> TangentSystem<'a, M> {
         asked.max_by(|&i, &j| self.mismatch[i].total_cmp(&self.mismatch[j]))
     }
 
+    /// Whether the equations have been evaluated.
+    fn has_run(&self) -> bool {
+        !self.responses.is_empty()
+    }
+
+    /// Asks nothing more of the knots whose equation isn't nearly met; they keep the tangents they have.
+    fn give_up_unmet(&mut self) {
+        for (given_up, mismatch) in self.given_up.iter_mut().zip(&self.mismatch) {
+            *given_up |= !(*mismatch <= CLOSE);
+        }
+    }
+
     /// Asks nothing more of a knot: it has the tangent that it started with.
     fn give_up(&mut self, knot: usize, start: &[f64]) {
         self.given_up[knot] = true;
@@ -406,14 +421,36 @@ impl<M: CurvatureMap> TangentSystem<'_, M> {
     /// The tangents reached.
     fn finish(mut self, iterations: usize) -> Tangents {
         let ends = (0..self.contexts.len())
-            .map(|i| SegmentEnds {
-                angles: self.angles(i),
-                curvatures: self.responses.get(i).map(|response| response.value),
-                context: self.contexts[i],
+            .map(|i| {
+                let curvatures = self.responses.get(i).map(|response| response.value);
+                let (angles, curvatures) = self.forwards(self.angles(i), curvatures);
+                SegmentEnds { angles, curvatures, context: self.contexts[i] }
             })
             .collect();
         let adapted = std::mem::take(&mut self.adapted);
         Tangents { ends, mismatch: self.mismatch, adapted, iterations, stage: Stage::Plain }
+    }
+
+    /// The tangents along which a segment of a periodic map is travelled: what shapes without reversals
+    /// can draw, too.
+    fn forwards(
+        &self,
+        angles: ChordAngles,
+        curvatures: Option<[EndCurvature; 2]>,
+    ) -> (ChordAngles, Option<[EndCurvature; 2]>) {
+        let (true, Some(curvatures)) = (self.map.is_periodic(), curvatures) else {
+            return (angles, curvatures);
+        };
+        let travelled = |angle: f64, EndCurvature { num, den }: EndCurvature| {
+            if den < 0.0 {
+                (wrap_angle(angle + PI), EndCurvature { num: -num, den: -den })
+            } else {
+                (wrap_angle(angle), EndCurvature { num, den })
+            }
+        };
+        let (theta0, first) = travelled(angles.theta0, curvatures[0]);
+        let (theta1, last) = travelled(angles.theta1, curvatures[1]);
+        (ChordAngles::new(theta0, theta1), Some([first, last]))
     }
 
     /// How far the curvature at the start (0) or end (1) of a segment is from the one wanted, in the
@@ -485,7 +522,7 @@ impl Turned {
 
     /// Derivative of the vector's angle.
     fn angle_by(&self, change: &Turned) -> f64 {
-        (self.den * change.num - self.num * change.den)
-            / (self.den * self.den + self.num * self.num)
+        let squared = self.den * self.den + self.num * self.num;
+        (self.den * change.num - self.num * change.den) / squared.max(f64::MIN_POSITIVE)
     }
 }

@@ -17,11 +17,8 @@ pub struct SegmentContext {
 
 impl SegmentContext {
     /// A unit chord with nothing given.
-    pub const UNIT: SegmentContext = SegmentContext {
-        chord: 1.0,
-        tension: [None, None],
-        given_direction: [false, false],
-    };
+    pub const UNIT: SegmentContext =
+        SegmentContext { chord: 1.0, tension: [None, None], given_direction: [false, false] };
 }
 
 /// Curvatures at a segment's ends for unit chord, and how they respond to the end tangents.

@@ -67,8 +67,7 @@ fn the_map_is_the_curvature_of_the_segment() {
     for theta0 in ANGLES {
         for theta1 in ANGLES {
             let angles = ChordAngles::new(theta0, theta1);
-            let ends =
-                SegmentEnds { angles, curvatures: None, context: SegmentContext::UNIT };
+            let ends = SegmentEnds { angles, curvatures: None, context: SegmentContext::UNIT };
             let (start, end) = (Point::new(3.0, 4.0), Point::new(3.0, 6.0));
             let segment = BespokeCubics.place(start, end, &ends);
             if segment.is_line() {
@@ -98,4 +97,45 @@ fn end_rules_vanish_with_a_cusp_at_the_other_end() {
     }
     let theta: f64 = 1.2;
     assert!((parabola_end(theta).0 - ((2.0 * theta.tan()).atan() - theta)).abs() < 1e-15);
+}
+
+/// What the spline is for: any knots at all. Uniform in a square, open and closed, most of them with
+/// turns far beyond what the Euler spline deals with.
+#[test]
+fn random_knots_are_solved_without_reversals() {
+    let mut state = 7u64;
+    let mut random = move || {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let spline = crate::catalog::spline("bespoke").unwrap();
+    for case in 0..240 {
+        let n = [4, 9, 20, 45][case % 4];
+        let points: Vec<Point> = (0..n).map(|_| Point::new(random(), random())).collect();
+        let contour = crate::Contour { closed: case % 8 < 4, ..crate::Contour::open(points) };
+        let solution = crate::solve(&contour, &*spline).unwrap();
+        assert_eq!(solution.report.relaxed, [], "{contour:?}");
+        for knot in &solution.knots {
+            if let (Some(arriving), Some(leaving)) = (knot.direction_in, knot.direction_out) {
+                assert!((arriving - leaving).cos() > 1.0 - 1e-12, "{contour:?}");
+            }
+        }
+    }
+}
+
+/// A direction given at an end is that in which the curve leaves, even where the arm of the free
+/// spline would point backwards.
+#[test]
+fn given_directions_are_met() {
+    let spline = crate::catalog::spline("bespoke").unwrap();
+    for i in 0..24 {
+        let direction = PI * f64::from(i) / 12.0;
+        let mut contour = crate::Contour::open([(0.0, 0.0), (3.0, 1.0), (4.0, -2.0)]);
+        contour.knots[0] = contour.knots[0].clone().tangent(kurbo::Vec2::from_angle(direction));
+        let solution = crate::solve(&contour, &*spline).unwrap();
+        assert_eq!(solution.report.relaxed, [], "{direction}");
+        let off = solution.knots[0].direction_out.unwrap() - direction;
+        assert!(off.cos() > 1.0 - 1e-15, "{direction} {off}");
+    }
 }

@@ -39,9 +39,11 @@ pub const INFO: SplineInfo = SplineInfo {
         Claim::Continuity(2),
         Claim::Round,
         Claim::Extensional,
+        Claim::GeneratingCurve,
         Claim::MonotoneCurvature,
         Claim::SimilarityInvariant,
         Claim::Symmetric,
+        Claim::Ripple(0.267_949_192),
     ],
     build: |params| Ok(Box::new(Euler::from_params(params))),
 };

@@ -67,12 +67,10 @@ impl BiParabola {
         let (sin_1, cos_1) = sin_cos(2.0 * beta + phi);
         let (sin_phi, cos_phi) = sin_cos(phi);
         let sum = sin_0 + sin_1;
-        let by_phi = 3.0 * cos_phi - mu * cos_0 - (1.0 - mu) * cos_1
-            - (mu_by_alpha - mu_by_beta) * sum;
-        let by_angle = [
-            -2.0 * mu * cos_0 - mu_by_alpha * sum,
-            2.0 * (1.0 - mu) * cos_1 - mu_by_beta * sum,
-        ];
+        let by_phi =
+            3.0 * cos_phi - mu * cos_0 - (1.0 - mu) * cos_1 - (mu_by_alpha - mu_by_beta) * sum;
+        let by_angle =
+            [-2.0 * mu * cos_0 - mu_by_alpha * sum, 2.0 * (1.0 - mu) * cos_1 - mu_by_beta * sum];
         let slopes = [0, 1].map(|angle| {
             let is = |wanted: usize| if angle == wanted { 1.0 } else { 0.0 };
             let phi_by = finite(-by_angle[angle] / by_phi);
@@ -137,12 +135,8 @@ impl SegmentShape for BiParabolas {
         let (length, towards) = (chord.hypot(), direction(chord));
         let leg = |direction: f64, part: f64| Vec2::from_angle(towards + direction) * length * part;
         let (before, after) = (found.mu * found.leg, (1.0 - found.mu) * found.leg);
-        let first = [
-            leg(-ends.angles.theta0, before * found.alpha.cos()),
-            leg(found.phi, before),
-        ];
-        let second =
-            [leg(found.phi, after), leg(ends.angles.theta1, after * found.beta.cos())];
+        let first = [leg(-ends.angles.theta0, before * found.alpha.cos()), leg(found.phi, before)];
+        let second = [leg(found.phi, after), leg(ends.angles.theta1, after * found.beta.cos())];
         let joint = start + first[0] + first[1];
         if joint == start {
             parabola(start, end, second)

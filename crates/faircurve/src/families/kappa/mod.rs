@@ -45,8 +45,7 @@ pub const INFO: SplineInfo = SplineInfo {
     build: |params| {
         Ok(match params.choice("method", "parabolas") {
             "bi-parabola" => {
-                let rule =
-                    Continuity { map: BiParabolas, end: NaturalEnd::Angle(parabola_end) };
+                let rule = Continuity { map: BiParabolas, end: NaturalEnd::Angle(parabola_end) };
                 Box::new(TwoParamSpline::new(&INFO, rule, shapes::chosen(params, BiParabolas)))
             }
             _ => Box::new(Kappa::from_params(params)),
@@ -65,17 +64,12 @@ struct Kappa {
 impl Kappa {
     fn from_params(params: &Params) -> Self {
         Kappa {
-            spline: TwoParamSpline::new(
-                &INFO,
-                KappaTangents,
-                shapes::chosen(params, BiParabolas),
-            ),
+            spline: TwoParamSpline::new(&INFO, KappaTangents, shapes::chosen(params, BiParabolas)),
             draws_parabolas: params.choice(shapes::SHAPE.name, "own") == "own",
         }
     }
 
-    fn solve(&self, run: &Run, most: usize) -> RunSolution {
-        let parabolas = Parabolas::solve(run, most);
+    fn draw(&self, run: &Run, parabolas: &Parabolas) -> RunSolution {
         let tangents = parabolas.tangents(run);
         let mut solved = if self.draws_parabolas {
             self.spline.assess(run, tangents, parabolas.segments(run))
@@ -109,22 +103,29 @@ impl Spline for Kappa {
     }
 
     fn solve_plainly(&self, run: &Run) -> Option<RunSolution> {
-        let solved = self.solve(run, PLAIN);
+        let parabolas = Parabolas::settle(run, PLAIN)?;
+        let solved = self.draw(run, &parabolas);
         solved.relaxed.is_empty().then_some(solved)
     }
 
     fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution {
-        let most = effort.evaluations(run.knots.len()) / run.segment_count();
-        RunSolution { stage: Stage::Mended, ..self.solve(run, most.clamp(PLAIN, MOST)) }
+        let most = effort.evaluations(run.knots.len()) / (COST * run.segment_count());
+        let parabolas = Parabolas::search(run, most.clamp(FEWEST, MOST));
+        RunSolution { stage: Stage::Mended, ..self.draw(run, &parabolas) }
     }
 }
 
-/// Steps of the iteration before a run counts as hard: those of the reference values settle in up to
-/// 220.
+/// Steps of the iteration before a run counts as hard: the reference values settle within 220.
 const PLAIN: usize = 250;
 
-/// The most steps: what hasn't settled by then rarely does.
+/// The most steps of a search: what hasn't settled by then rarely does.
 const MOST: usize = 1000;
+
+/// The fewest, where hardly any effort is left.
+const FEWEST: usize = 40;
+
+/// A step for one knot takes as long as evaluating so many segments does elsewhere.
+const COST: usize = 3;
 
 /// The tangents at the vertices of the parabolas.
 #[derive(Clone, Copy, Debug)]
@@ -132,7 +133,7 @@ struct KappaTangents;
 
 impl TangentRule for KappaTangents {
     fn tangents(&self, run: &Run) -> Tangents {
-        Parabolas::solve(run, PLAIN).tangents(run)
+        Parabolas::search(run, MOST).tangents(run)
     }
 }
 

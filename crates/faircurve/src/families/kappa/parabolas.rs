@@ -29,29 +29,102 @@ pub(super) struct Parabolas {
     vertex: Vec<f64>,
     /// How far each knot is from being a vertex, and the joint after it from equal curvatures.
     pub(super) mismatch: Vec<f64>,
+    /// Knots that aren't at a vertex.
+    given_up: Vec<bool>,
+    /// Whether joints stay where they are.
+    fixed_joints: bool,
     iterations: usize,
 }
 
 impl Parabolas {
     /// Finds them by the iteration of the paper's section 4: joints of equal curvature from the
     /// control points, vertices from the joints, and control points from both, by a linear system.
+    /// `None` if they haven't settled after so many steps.
     ///
-    /// It sees rounded numbers, so that copies which are moved, turned or scaled take the same course;
-    /// where it settles, it goes on with the exact ones. Parabolas always pass through their knots.
-    pub(super) fn solve(run: &Run, most: usize) -> Parabolas {
-        /// Where the rounding of the numbers begins.
-        const NEAR: f64 = 1e-7;
+    /// The iteration sees rounded numbers, so that copies which are moved, turned or scaled take the
+    /// same course; it ends with the exact ones. Parabolas always pass through their knots.
+    pub(super) fn settle(run: &Run, most: usize) -> Option<Parabolas> {
+        let rounded = rounded(run);
+        let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
+        let mut parabolas = Parabolas::new(&rounded);
+        let moved = parabolas.iterate(&rounded, &mut matrix, most, NEAR);
+        if moved > NEAR || parabolas.give_up_those_at_joints(&rounded) {
+            return None;
+        }
+        parabolas.finish(run, &mut matrix, most);
+        Some(parabolas)
+    }
+
+    /// The same in at most so many steps, whether they settle or not: knots whose parabolas don't are
+    /// given up, the worst first. They lie in the middle of the parameter, not at the vertex.
+    pub(super) fn search(run: &Run, most: usize) -> Parabolas {
+        /// Shares of the steps: before any knot is given up, after some have been, and at the end.
+        const SHARES: [usize; 3] = [2, 16, 6];
+        let n = run.knots.len();
         let rounded = rounded(run);
         let mut parabolas = Parabolas::new(&rounded);
-        let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
-        let moved = parabolas.iterate(&rounded, &mut matrix, most, NEAR);
-        parabolas.find_middles(run, &mut matrix);
-        if moved <= NEAR {
-            let size = (0..run.segment_count()).map(|i| run.chord(i).hypot()).fold(0.0, f64::max);
-            parabolas.iterate(run, &mut matrix, most, 1e-15 * size);
+        let mut matrix = BlockTridiagonal::new(n, run.closed);
+        let mut moved = parabolas.iterate(&rounded, &mut matrix, most / SHARES[0], NEAR);
+        let mut count = 1;
+        while moved > NEAR || parabolas.has_vertex_at_joint(&rounded) {
+            if parabolas.iterations + most / SHARES[1] + most / SHARES[2] > most {
+                // Then joints and vertices stay in the middle: that has a solution for any knots.
+                let iterations = parabolas.iterations;
+                parabolas =
+                    Parabolas { fixed_joints: true, iterations, ..Parabolas::new(&rounded) };
+                parabolas.give_up(&rounded, n);
+                break;
+            }
+            if !parabolas.give_up_those_at_joints(&rounded) {
+                parabolas.measure(&rounded);
+                parabolas.give_up(&rounded, count);
+                count *= 4;
+            }
+            moved = parabolas.iterate(&rounded, &mut matrix, most / SHARES[1], NEAR);
         }
-        parabolas.measure(run);
+        parabolas.finish(run, &mut matrix, most / SHARES[2]);
         parabolas
+    }
+
+    /// Goes on with the exact numbers.
+    fn finish(&mut self, run: &Run, matrix: &mut BlockTridiagonal<2>, most: usize) {
+        self.find_middles(run, matrix);
+        let size = (0..run.segment_count()).map(|i| run.chord(i).hypot()).fold(0.0, f64::max);
+        self.iterate(run, matrix, most, 1e-15 * size);
+        self.measure(run);
+    }
+
+    /// Gives up the vertices of so many knots, those furthest from them.
+    fn give_up(&mut self, run: &Run, count: usize) {
+        let n = self.middle.len();
+        let mut worst: Vec<usize> =
+            (0..n).filter(|&i| !is_end(run, i) && !self.given_up[i]).collect();
+        worst.sort_by(|&i, &j| self.mismatch[j].total_cmp(&self.mismatch[i]));
+        for i in worst.into_iter().take(count) {
+            (self.given_up[i], self.vertex[i]) = (true, 0.5);
+        }
+    }
+
+    /// Whether the vertex of a knot has come so close to a joint that curvature would jump there within
+    /// a thousandth of the parabola, and the control points hardly be determined.
+    fn is_at_joint(&self, run: &Run, knot: usize) -> bool {
+        const CLOSE: f64 = 1e-3;
+        !is_end(run, knot) && !(CLOSE..=1.0 - CLOSE).contains(&self.vertex[knot])
+    }
+
+    fn has_vertex_at_joint(&self, run: &Run) -> bool {
+        (0..self.middle.len()).any(|i| self.is_at_joint(run, i))
+    }
+
+    /// Gives up those knots; whether there are any.
+    fn give_up_those_at_joints(&mut self, run: &Run) -> bool {
+        let any = self.has_vertex_at_joint(run);
+        for i in 0..self.middle.len() {
+            if self.is_at_joint(run, i) {
+                (self.given_up[i], self.vertex[i]) = (true, 0.5);
+            }
+        }
+        any
     }
 
     fn new(run: &Run) -> Parabolas {
@@ -68,6 +141,8 @@ impl Parabolas {
             lambda,
             vertex: vec![0.5; n],
             mismatch: vec![0.0; n],
+            given_up: vec![false; n],
+            fixed_joints: false,
             iterations: 0,
         }
     }
@@ -112,16 +187,16 @@ impl Parabolas {
         } else {
             beyond
         };
-        let after = if run.closed || knot + 1 < n {
-            self.leg(knot) * self.lambda[knot]
-        } else {
-            -beyond
-        };
+        let after =
+            if run.closed || knot + 1 < n { self.leg(knot) * self.lambda[knot] } else { -beyond };
         [before, after]
     }
 
     /// λ from equal curvature at the joints.
     fn find_joints(&mut self, run: &Run) {
+        if self.fixed_joints {
+            return;
+        }
         let n = self.middle.len();
         let old = self.lambda.clone();
         for (i, lambda) in old.into_iter().enumerate() {
@@ -139,19 +214,15 @@ impl Parabolas {
 
     /// The parameters of the vertices, from the ends of the parabolas.
     fn find_vertices(&mut self, run: &Run) {
-        for i in (0..self.middle.len()).filter(|&i| !is_end(run, i)) {
+        for i in (0..self.middle.len()).filter(|&i| !is_end(run, i) && !self.given_up[i]) {
             let [before, after] = self.legs(run, i);
             let knot = run.knots[i].point.to_vec2();
             let c0 = self.middle[i] - before - knot;
             let c2 = self.middle[i] + after - knot;
             let chord = c2 - c0;
             // |c₂ − c₀|² t³ + 3 (c₂ − c₀)·(c₀ − p) t² + (3c₀ − 2p − c₂)·(c₀ − p) t − |c₀ − p|² = 0
-            let cubic = [
-                -c0.hypot2(),
-                (c0 * 3.0 - c2).dot(c0),
-                3.0 * chord.dot(c0),
-                chord.hypot2(),
-            ];
+            let cubic =
+                [-c0.hypot2(), (c0 * 3.0 - c2).dot(c0), 3.0 * chord.dot(c0), chord.hypot2()];
             self.vertex[i] = vertex(&cubic, self.vertex[i]);
         }
     }
@@ -216,8 +287,7 @@ impl Parabolas {
         before * (1.0 - t) + after * t
     }
 
-    /// What doesn't hold: greatest curvature at the knots, equal curvature at the joints. Where a
-    /// vertex has met a joint it may lie beyond.
+    /// What doesn't hold: greatest curvature at the knots, equal curvature at the joints.
     fn measure(&mut self, run: &Run) {
         let n = self.middle.len();
         for i in 0..n {
@@ -226,9 +296,7 @@ impl Parabolas {
                 let [before, after] = self.legs(run, i);
                 let (velocity, bend) = (self.at_vertex(run, i), after - before);
                 let cos = velocity.dot(bend) / (velocity.hypot() * bend.hypot());
-                let t = self.vertex[i];
-                let lies_beyond = (t < AT_JOINT && cos > 0.0) || (1.0 - t < AT_JOINT && cos < 0.0);
-                if cos.is_finite() && !lies_beyond {
+                if cos.is_finite() {
                     off = cos.abs();
                 }
             }
@@ -352,8 +420,9 @@ fn vertex(cubic: &[f64; 4], guess: f64) -> f64 {
     t
 }
 
-/// A vertex is at a joint if its parameter is as near to 0 or 1 as this.
-const AT_JOINT: f64 = 1e-9;
+/// Control points that move by less, in units of the longest chord, have settled as far as rounded
+/// numbers tell.
+const NEAR: f64 = 1e-7;
 
 /// The same run with its first chord along +x and its longest 1 long, its numbers rounded.
 fn rounded(run: &Run) -> Run {

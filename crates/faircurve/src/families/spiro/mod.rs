@@ -6,15 +6,16 @@ use kurbo::Point;
 use num_complex::Complex64;
 
 use super::catalog::{Claim, SplineInfo};
-use super::euler::fit_euler;
+use super::euler::{EulerSpirals, fit_euler};
 use crate::four_param::family::{FourParamFamily, Response};
 use crate::four_param::spline::ConstraintSpline;
-use crate::frame::ChordAngles;
+use crate::frame::{ChordAngles, EndCurvature};
 use crate::numeric::spiro_integral::spiro_moments;
 use crate::outline::Join;
 use crate::plan::Run;
 use crate::segment::{PolynomialSpiral, Segment};
 use crate::spline::{Effort, RunSolution, Spline};
+use crate::two_param::shape::{SegmentEnds, SegmentShape};
 
 /// The catalogue's row.
 pub const INFO: SplineInfo = SplineInfo {
@@ -59,6 +60,29 @@ impl Spline for Spiro {
 
     fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution {
         ConstraintSpline::new(PolynomialSpirals).solve_run(run, effort)
+    }
+}
+
+impl SegmentShape for PolynomialSpirals {
+    /// The straightest spiral with the tangents and curvatures of a two-parameter spline's ends; an Euler
+    /// spiral where curvatures aren't given or no spiral worth drawing
+    /// has them.
+    fn place(&self, start: Point, end: Point, ends: &SegmentEnds) -> Segment {
+        let ChordAngles { theta0, theta1 } = ends.angles;
+        let found = ends.curvatures.and_then(|curvatures| {
+            let [first, last] = curvatures.map(|end: EndCurvature| end.num / end.den);
+            let is_finite = first.is_finite() && last.is_finite();
+            let ends = is_finite.then_some([theta0, theta1, first, last])?;
+            self.between_ends(ends).first().copied()
+        });
+        match found {
+            Some(parameters) => self.shape(start, end, parameters),
+            None => EulerSpirals.place(start, end, ends),
+        }
+    }
+
+    fn keeps_curvature(&self) -> bool {
+        true
     }
 }
 
