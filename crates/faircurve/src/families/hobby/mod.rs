@@ -30,7 +30,7 @@ pub const LARGEST_TENSION: f64 = 4096.0;
 pub const INFO: SplineInfo = SplineInfo {
     name: "hobby",
     summary: "METAFONT's cubics, whose mock curvatures agree; tension and curl",
-    source: "thesis 4.7; Hobby 1986; The METAFONTbook",
+    source: "thesis 4.7; Hobby 1986; METAFONT: The Program",
     params: &[
         ParamSpec {
             name: "tension",
@@ -149,7 +149,7 @@ pub struct MockCurvature {
 
 impl CurvatureMap for MockCurvature {
     /// With a = 1/tension at the start and b at the end: κ₀ = 2((3 − b)·theta0 − b·theta1)/a², and
-    /// the mirror image at the end (The METAFONTbook, chapter 14; Hobby's equation 12).
+    /// the mirror image at the end ("METAFONT: The Program", part 18).
     fn curvatures(&self, angles: ChordAngles, context: &SegmentContext) -> EndCurvatures {
         let ChordAngles { theta0, theta1 } = angles;
         let [a, b] = tensions(context, self.tension).map(|tension| 1.0 / tension.abs());

@@ -204,7 +204,11 @@ fn piece(gaps: &[f64], slopes: &[Vec2], m: usize) -> Piece {
     };
     let velocity =
         |sign: f64, from_k: f64| (slope + (quadratic * h + cubic * (h * from_k)) * sign) * h;
-    Piece { velocity: [velocity(-1.0, from_k[0]), velocity(1.0, from_k[1])], degree }
+    // A given velocity is kept to the bit.
+    let given = |j: Option<usize>| j.filter(|&j| gaps.get(j) == Some(&0.0)).map(|j| slopes[j] * h);
+    let start = given(m.checked_sub(1)).unwrap_or_else(|| velocity(-1.0, from_k[0]));
+    let end = given(Some(m + 1)).unwrap_or_else(|| velocity(1.0, from_k[1]));
+    Piece { velocity: [start, end], degree }
 }
 
 #[cfg(test)]
