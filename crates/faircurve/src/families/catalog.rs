@@ -8,10 +8,11 @@ use std::fmt;
 use crate::outline::Join;
 use crate::spline::Spline;
 
-use super::{euler, spiro};
+use super::{euler, log_aesthetic, spiro};
 
 /// Every spline, in the order in which lists show them.
-pub const ENTRIES: &[&SplineInfo] = &[&spiro::INFO, &euler::INFO];
+pub const ENTRIES: &[&SplineInfo] =
+    &[&spiro::INFO, &euler::INFO, &log_aesthetic::INFO];
 
 /// A catalogue row: what a spline is called, what it takes and what it claims.
 #[derive(Debug)]

@@ -2,5 +2,6 @@
 
 pub mod catalog;
 pub mod euler;
+pub mod log_aesthetic;
 pub mod shapes;
 pub mod spiro;

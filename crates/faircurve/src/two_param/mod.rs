@@ -8,6 +8,7 @@
 
 pub mod continuity;
 pub mod curvature_map;
+pub mod generating;
 pub mod shape;
 pub mod spline;
 pub mod tangents;
