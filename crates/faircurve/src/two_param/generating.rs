@@ -231,6 +231,10 @@ impl<G: GeneratingCurve> CurvatureMap for Cuts<G> {
     fn limit(&self) -> f64 {
         EulerSpirals.limit()
     }
+
+    fn order(&self) -> f64 {
+        self.curve.order()
+    }
 }
 
 impl<G: GeneratingCurve> SegmentShape for Cuts<G> {

@@ -37,10 +37,10 @@ impl LogAesthetic {
     /// How much the ripple of a small push shrinks from knot to knot on straight, evenly spaced
     /// knots (thesis section 4.8.1): for small angles, κ₀θ₁ = −κ₁θ₀ on each segment.
     pub fn ripple(&self) -> f64 {
-        // Where the small end lies at ξ = −r^(1/α), so that κ₀ = −r κ₁ and θ₀ = −r θ₁.
+        // Where the small end lies at ξ = −r^(1/α), so that κ₀ = −r κ₁; and θ₀ = r θ₁.
         let off = |r: f64| {
             let (theta0, theta1) = linear_angles(self.alpha + 1.0, -r.powf(1.0 / self.alpha));
-            theta0 + r * theta1
+            theta0 - r * theta1
         };
         monotone_root(off, 1e-6, 0.999).unwrap_or(f64::NAN)
     }

@@ -8,9 +8,12 @@ pub use curve::{LogAesthetic, LogAestheticCut};
 use super::catalog::{Claim, ParamKind, ParamSpec, SplineInfo};
 use super::shapes::{self, SHAPE};
 use crate::outline::Join;
+use crate::plan::Run;
+use crate::spline::Effort;
 use crate::two_param::continuity::{Continuity, NaturalEnd};
 use crate::two_param::generating::Cuts;
 use crate::two_param::spline::TwoParamSpline;
+use crate::two_param::tangents::{TangentRule, Tangents};
 
 /// The exponent that people liked best (thesis section 2.1.1).
 pub const PREFERRED: f64 = 1.78;
@@ -57,11 +60,46 @@ pub const INFO: SplineInfo = SplineInfo {
             _ => NaturalEnd::Arc,
         };
         let curve = LogAesthetic::new(params.number("alpha", PREFERRED));
-        let rule = Continuity { map: Cuts { curve }, end };
+        let rule = AlongAlpha { curve, end };
         let shape = shapes::chosen(params, Cuts { curve });
         Ok(Box::new(TwoParamSpline::new(&INFO, rule, shape)))
     },
 };
+
+/// Continuity of curvature; where Newton's method doesn't settle, by way of the curves between the
+/// Euler spiral and this one.
+#[derive(Clone, Copy, Debug)]
+struct AlongAlpha {
+    curve: LogAesthetic,
+    end: NaturalEnd,
+}
+
+impl AlongAlpha {
+    fn continuity(&self, alpha: f64) -> Continuity<Cuts<LogAesthetic>> {
+        Continuity { map: Cuts { curve: LogAesthetic::new(alpha) }, end: self.end }
+    }
+}
+
+impl TangentRule for AlongAlpha {
+    fn tangents(&self, run: &Run) -> Tangents {
+        self.continuity(self.curve.alpha()).tangents(run)
+    }
+
+    fn search(&self, run: &Run, _effort: Effort) -> Tangents {
+        /// How much log α may change in one step.
+        const STRIDE: f64 = 0.2;
+        let wanted = self.curve.alpha().ln();
+        let steps = (wanted.abs() / STRIDE).ceil();
+        let mut tangents = self.continuity(1.0).tangents(run);
+        let mut i = 0.0;
+        while i < steps {
+            i += 1.0;
+            let alpha = if i == steps { self.curve.alpha() } else { (wanted * i / steps).exp() };
+            tangents = self.continuity(alpha).tangents_from(run, Some(&tangents));
+        }
+        tangents
+    }
+}
 
 #[cfg(test)]
 mod tests;

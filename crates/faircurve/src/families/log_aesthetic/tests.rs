@@ -30,7 +30,6 @@ fn cuts_have_their_angles_over_the_whole_square() {
                 }
             }
         }
-        println!("alpha {alpha}: {worst:?}");
         assert!(worst.0 < 4e-15, "{alpha}: {worst:?}");
     }
 }
@@ -103,41 +102,6 @@ fn cuts_continue_the_straight_line() {
                 }
                 last = Some(ends);
             }
-        }
-    }
-}
-
-#[test]
-fn experiment() {
-    use crate::{Contour, catalog, solve};
-    use crate::catalog::Params;
-    let mut state = 7u64;
-    let mut random = move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1u64 << 53) as f64
-    };
-    for turn in [0.8, 1.5, 2.5] {
-        let contours: Vec<Contour> = (0..300).map(|_| {
-            let (mut x, mut y, mut d) = (0.0, 0.0, 0.0f64);
-            let n = 4 + (random() * 20.0) as usize;
-            Contour::open((0..n).map(|_| {
-                let p = (x, y);
-                d += turn * (2.0 * random() - 1.0);
-                let l = 0.5 + random();
-                x += l * d.cos(); y += l * d.sin();
-                p
-            }))
-        }).collect();
-        for alpha in ALPHAS {
-            let spline = catalog::build("log-aesthetic", &Params::new().with("alpha", alpha)).unwrap();
-            let t = std::time::Instant::now();
-            let (mut bad, mut its, mut knots) = (0, 0, 0);
-            for c in &contours {
-                let s = solve(c, &*spline).unwrap();
-                bad += usize::from(!s.report.relaxed.is_empty());
-                its += s.report.iterations; knots += c.knots.len();
-            }
-            println!("turn {turn} alpha {alpha}: relaxed {bad}/300, its {:.1}, {:.2} us/knot", its as f64/300.0, t.elapsed().as_secs_f64()*1e6/knots as f64);
         }
     }
 }
