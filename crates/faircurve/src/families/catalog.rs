@@ -8,11 +8,11 @@ use std::fmt;
 use crate::outline::Join;
 use crate::spline::Spline;
 
-use super::{euler, log_aesthetic, spiro};
+use super::{euler, generated, log_aesthetic, spiro};
 
 /// Every spline, in the order in which lists show them.
 pub const ENTRIES: &[&SplineInfo] =
-    &[&spiro::INFO, &euler::INFO, &log_aesthetic::INFO];
+    &[&spiro::INFO, &euler::INFO, &log_aesthetic::INFO, &generated::INFO];
 
 /// A catalogue row: what a spline is called, what it takes and what it claims.
 #[derive(Debug)]
@@ -205,6 +205,12 @@ impl Params {
         }
     }
 
+    /// The text given for `name`, or `default`: a number is text too. For use in
+    /// [`SplineInfo::build`].
+    pub fn text(&self, name: &str, default: &str) -> String {
+        self.0.get(name).map_or_else(|| default.to_owned(), ParamValue::to_string)
+    }
+
     /// The number given for `name`, or `default`. For use in [`SplineInfo::build`], after checking.
     pub fn number(&self, name: &str, default: f64) -> f64 {
         match self.0.get(name) {
@@ -246,6 +252,19 @@ pub enum CatalogError {
         /// What it takes instead.
         expected: String,
     },
+    /// The parameter takes text, but can't make sense of this one.
+    BadText {
+        /// The spline.
+        spline: &'static str,
+        /// The parameter.
+        param: &'static str,
+        /// The text given.
+        value: String,
+        /// What is wrong with it.
+        reason: String,
+        /// What it takes instead.
+        expected: String,
+    },
 }
 
 impl fmt::Display for CatalogError {
@@ -257,6 +276,9 @@ impl fmt::Display for CatalogError {
             }
             CatalogError::BadValue { spline, param, value, .. } => {
                 write!(f, "parameter `{param}` of spline `{spline}` can't be `{value}`")
+            }
+            CatalogError::BadText { spline, param, value, reason, .. } => {
+                write!(f, "parameter `{param}` of spline `{spline}` can't be `{value}`: {reason}")
             }
         }
     }
@@ -280,7 +302,9 @@ impl CatalogError {
                     suggest(asked, params.iter().map(|param| param.name))
                 }
             }
-            CatalogError::BadValue { expected, .. } => format!("it takes {expected}"),
+            CatalogError::BadValue { expected, .. } | CatalogError::BadText { expected, .. } => {
+                format!("it takes {expected}")
+            }
         }
     }
 }

@@ -2,6 +2,7 @@
 
 pub mod catalog;
 pub mod euler;
+pub mod generated;
 pub mod log_aesthetic;
 pub mod shapes;
 pub mod spiro;

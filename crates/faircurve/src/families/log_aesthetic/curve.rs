@@ -353,6 +353,14 @@ fn fraction(order: f64, phi: f64) -> Complex64 {
 }
 
 impl LogAestheticCut {
+    /// Where its ends lie on the curve κ = sign(s)·|s|^α; `None` for arcs and lines, which lie at
+    /// infinity.
+    pub fn places(&self) -> Option<[f64; 2]> {
+        // ds = s₁ (1 − ξ) dv, so that K = s₁^α · s₁ (1 − ξ).
+        let end = (self.curvature / self.drop).powf(1.0 / self.order());
+        (end.is_finite() && end > 0.0).then_some([self.small_end * end, end])
+    }
+
     fn x(&self, v: f64) -> f64 {
         // The large end is 1 to the bit.
         if v >= 1.0 { 1.0 } else { self.small_end + self.drop * v }
