@@ -60,6 +60,8 @@ struct Kappa {
     /// Near an inflection, κ ≈ `slope`·s^`order`.
     order: f64,
     slope: f64,
+    /// The stretch along which curvature rises: what is cut from.
+    stretch: [f64; 2],
     /// Middles, ascending, with κ′/κ² there, for first guesses.
     places: Vec<(f64, f64)>,
 }
@@ -133,6 +135,46 @@ impl Kappa {
     }
 }
 
+impl Kappa {
+    /// The stretch of samples along which curvature rises: the first from an inflection on, or the
+    /// longest.
+    fn find_stretch(&mut self, samples: &[(f64, f64)]) {
+        let is_rising = |i: usize| samples[i + 1].1 >= samples[i].1;
+        let (mut best, mut start) = (0..0, 0);
+        for i in 0..samples.len() {
+            let goes_on = i + 1 < samples.len() && is_rising(i) && samples[i + 1].1.is_finite();
+            if !goes_on {
+                let is_first = start == 0 && self.is_odd;
+                if is_first || (!self.is_odd && i - start > best.len()) {
+                    best = start..i;
+                }
+                start = i + 1;
+            }
+        }
+        // Between two samples, where curvature turns.
+        let turn = |inside: usize, outside: Option<usize>| {
+            let inside = samples[inside].0;
+            let outside = outside.and_then(|i| samples.get(i)).map(|(s, _)| *s);
+            outside.and_then(|s| monotone_root(|s| self.jet(s)[1], inside, s)).unwrap_or(inside)
+        };
+        let low = turn(best.start, best.start.checked_sub(1));
+        let high = turn(best.end, Some(best.end + 1));
+        self.stretch = if self.is_odd { [-high, high] } else { [low, high] };
+    }
+
+    /// How curvature leaves an inflection.
+    fn find_order(&mut self) {
+        let near = f64::exp2(-20.0);
+        let [here, further] = [near, 2.0 * near].map(|s| self.value(s));
+        let order = (further / here).log2();
+        if order > 0.0 && order.is_finite() {
+            let whole = order.round();
+            self.order = if (order - whole).abs() < 1e-9 { whole } else { order };
+            self.slope = here / near.powf(self.order);
+        }
+    }
+}
+
 impl Generated {
     /// The curve of a function.
     ///
@@ -161,58 +203,66 @@ impl Generated {
     fn from_source(source: Source) -> Result<Self, NotGenerating> {
         /// Like a part in so many: odd, as far as rounding tells.
         const ALIKE: f64 = 1e-12;
-        let sizes: Vec<f64> = (-52..=106).map(|i| f64::exp2(f64::from(i) / 2.0)).collect();
-        let sides = |s: f64| [source.value(s), source.value(-s)];
-        let both: Vec<(f64, [f64; 2])> = sizes.iter().map(|s| (*s, sides(*s))).collect();
-        let is_odd = source.value(0.0) == 0.0
-            && both.iter().all(|(_, [right, left])| {
+        // From 2⁻²⁶ to 2⁵³, where a step of 1 is the least that numbers have.
+        let sizes: Vec<f64> = (-416..=848).map(|i| f64::exp2(f64::from(i) / 16.0)).collect();
+        let right: Vec<(f64, f64)> = sizes.iter().map(|s| (*s, source.value(*s))).collect();
+        let left: Vec<(f64, f64)> = sizes.iter().map(|s| (-*s, source.value(-*s))).collect();
+        let middle = (0.0, source.value(0.0));
+        let is_odd = middle.1 == 0.0
+            && right.iter().zip(&left).all(|((_, right), (_, left))| {
                 let is_like = (right + left).abs() <= ALIKE * right.abs();
                 is_like || !(right.is_finite() && left.is_finite())
             });
-        let samples: Vec<(f64, f64)> = if is_odd {
-            both.iter().map(|(s, [right, _])| (*s, *right)).collect()
-        } else {
-            let left = both.iter().rev().map(|(s, [_, left])| (-*s, *left));
-            let middle = std::iter::once((0.0, source.value(0.0)));
-            left.chain(middle).chain(both.iter().map(|(s, [right, _])| (*s, *right))).collect()
+        let before = left.into_iter().rev().filter(|_| !is_odd);
+        let mut samples: Vec<(f64, f64)> = before.chain([middle]).chain(right).collect();
+        let numbers: Vec<f64> = samples.iter().map(|(_, k)| *k).filter(|k| k.is_finite()).collect();
+        let Some(sign) = numbers.iter().find(|k| **k != 0.0).map(|k| k.signum()) else {
+            return Err(NotGenerating::Constant);
         };
-        let samples: Vec<(f64, f64)> =
-            samples.into_iter().filter(|(_, curvature)| curvature.is_finite()).collect();
-        let is_changing = samples.windows(2).any(|pair| pair[0].1 != pair[1].1);
-        let sign = samples.iter().map(|(_, k)| *k).find(|k| *k != 0.0).unwrap_or(0.0).signum();
-        if !is_changing || samples.is_empty() {
+        if numbers.iter().all(|k| *k == numbers[0]) {
             return Err(NotGenerating::Constant);
         }
-        if !is_odd && samples.iter().any(|(_, k)| k * sign < 0.0) {
+        if !is_odd && numbers.iter().any(|k| k * sign < 0.0) {
             return Err(NotGenerating::NeitherOddNorOfOneSign);
         }
         // Backwards where curvature, made positive, falls more often than it rises.
-        let rises: i32 = samples
-            .windows(2)
-            .map(|pair| sign * (pair[1].1 - pair[0].1))
-            .map(|rise| if rise > 0.0 { 1 } else if rise < 0.0 { -1 } else { 0 })
-            .sum();
-        let flips = [sign, if rises < 0 && !is_odd { -1.0 } else { 1.0 }];
-        let mut kappa =
-            Kappa { source, flips, is_odd, order: 1.0, slope: 1.0, places: Vec::new() };
-        if is_odd {
-            let near = f64::exp2(-20.0);
-            let [here, further] = [near, 2.0 * near].map(|s| kappa.value(s));
-            let order = (further / here).log2();
-            if order > 0.0 && order.is_finite() {
-                let whole = order.round();
-                kappa.order = if (order - whole).abs() < 1e-9 { whole } else { order };
-                kappa.slope = here / near.powf(kappa.order);
-            }
+        let rises = |pair: &[(f64, f64)]| (pair[1].1 - pair[0].1) * sign > 0.0;
+        let falls = |pair: &[(f64, f64)]| (pair[1].1 - pair[0].1) * sign < 0.0;
+        let count = |is: &dyn Fn(&[(f64, f64)]) -> bool| {
+            samples.windows(2).filter(|pair| is(pair)).count()
+        };
+        let is_backwards = !is_odd && count(&falls) > count(&rises);
+        let flips = [sign, if is_backwards { -1.0 } else { 1.0 }];
+        for (s, curvature) in &mut samples {
+            *s *= flips[1];
+            *curvature *= sign;
         }
-        let mut places: Vec<f64> = samples.iter().map(|(s, _)| s * flips[1]).collect();
-        places.sort_by(f64::total_cmp);
-        for s in places {
+        samples.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut kappa = Kappa {
+            source,
+            flips,
+            is_odd,
+            order: 1.0,
+            slope: 1.0,
+            stretch: [0.0; 2],
+            places: Vec::new(),
+        };
+        kappa.find_stretch(&samples);
+        if is_odd {
+            kappa.find_order();
+        }
+        /// Flatter places are arcs to rounding.
+        const FLAT: f64 = 1e-12;
+        for (s, _) in samples.into_iter().step_by(8) {
             let [curvature, slope, ..] = kappa.jet(s);
             let sharpness = slope / (curvature * curvature);
-            if curvature > 0.0 && sharpness.is_finite() {
+            let is_inside = s > kappa.stretch[0] && s < kappa.stretch[1];
+            if is_inside && curvature > 0.0 && sharpness > FLAT && sharpness.is_finite() {
                 kappa.places.push((s, sharpness));
             }
+        }
+        if kappa.places.len() < 2 {
+            return Err(NotGenerating::Constant);
         }
         Ok(Generated { kappa: Arc::new(kappa) })
     }
@@ -352,7 +402,7 @@ impl GeneratedCut {
         /// Halvings towards a singularity.
         const DEEPEST: usize = 30;
         /// For functions that no number of panels can resolve.
-        const MOST_PANELS: usize = 200;
+        const MOST_PANELS: usize = 60;
         let scale = stretch(kappa, from, to).largest;
         let mut waiting = if from < 0.0 && to > 0.0 {
             vec![(0.0, to, 0), (from, 0.0, 0)]
@@ -545,6 +595,11 @@ impl Generated {
                 middle = middle.max(0.0);
             }
             length = (length + step_length).clamp(0.5 * length, 2.0 * length);
+            let [low, high] = self.kappa.stretch;
+            if !(middle > low && middle < high) {
+                break;
+            }
+            length = length.min(2.0 * (high - middle).min(middle - low));
         }
         best.filter(|(error, _)| *error < ENOUGH).map(|(_, cut)| cut)
     }
@@ -552,23 +607,24 @@ impl Generated {
     /// The same slowly: for every middle the shortest length that gives `theta1`, and the middle for
     /// which `theta0` is right too.
     fn by_bisection(&self, angles: ChordAngles) -> Option<GeneratedCut> {
+        let [least, most] = self.kappa.stretch;
         let cut = |middle: f64, length: f64| {
             self.between(middle - length / 2.0, middle + length / 2.0)
         };
         let length = |middle: f64| {
             let off = |length: f64| cut(middle, length).angles().theta1 - angles.theta1;
-            let mut high = 0.1 * angles.theta1 / self.kappa.value(middle).max(f64::MIN_POSITIVE);
-            // Where curvature is small in the middle, it isn't at the end.
-            high = high.min(1.0 + middle.abs());
-            let mut low = 0.0;
-            for _ in 0..60 {
+            let longest = 2.0 * (most - middle).min(middle - least);
+            // Short enough to begin with, where curvature is small in the middle.
+            let start = 0.5 * angles.theta1 / self.kappa.value(middle);
+            let (mut low, mut high) = (0.0, start.min(0.1 * (1.0 + middle.abs())).min(longest));
+            while high > low {
                 let value = off(high);
                 if value >= 0.0 {
                     return monotone_root(off, low, high);
                 } else if value.is_nan() {
                     return None;
                 }
-                (low, high) = (high, 1.3 * high);
+                (low, high) = (high, (1.4 * high).min(longest));
             }
             None
         };
@@ -576,32 +632,29 @@ impl Generated {
             Some(length) => cut(middle, length).angles().theta0 - angles.theta0,
             None => f64::NAN,
         };
-        // The first change of sign from the side of the arcs.
-        let start = if self.kappa.is_odd { Some(0.0) } else { None };
-        let middles = start.into_iter().chain(self.kappa.places.iter().map(|(s, _)| *s));
-        let middles: Vec<f64> = middles.collect();
-        let (mut low, mut high) = (0, middles.len() - 1);
-        while low < high && off(middles[high]).is_nan() {
-            high -= 1;
-        }
-        while low < high && off(middles[low]).is_nan() {
-            low += 1;
-        }
-        if !(off(middles[low]) <= 0.0 && off(middles[high]) >= 0.0) {
+        let inflection = self.kappa.is_odd.then_some(0.0);
+        let places = self.kappa.places.iter().map(|(s, _)| *s);
+        let middles: Vec<f64> = inflection.into_iter().chain(places).collect();
+        if !(off(middles[0]) <= 0.0) {
             return None;
         }
+        let (mut low, mut high) = (0, middles.len());
+        let mut is_bracket = false;
         while high - low > 1 {
             let between = (low + high) / 2;
-            if off(middles[between]) < 0.0 {
+            let value = off(middles[between]);
+            if value < 0.0 {
                 low = between;
             } else {
                 high = between;
+                is_bracket = value >= 0.0;
             }
         }
+        if !is_bracket {
+            return None;
+        }
         let middle = monotone_root(off, middles[low], middles[high])?;
-        let cut = cut(middle, length(middle)?);
-        let found = cut.angles();
-        let error = (found.theta0 - angles.theta0).abs().max((found.theta1 - angles.theta1).abs());
-        (error < 1e-11).then_some(cut)
+        let length = length(middle)?;
+        self.refined(angles, middle, length)
     }
 }
