@@ -39,6 +39,7 @@ pub const INFO: SplineInfo = SplineInfo {
         Claim::Continuity(2),
         Claim::Round,
         Claim::Extensional,
+        Claim::GeneratingCurve,
         Claim::MonotoneCurvature,
         Claim::SimilarityInvariant,
         Claim::Symmetric,
