@@ -120,7 +120,7 @@ impl<C: Cut> PlacedCut<C> {
 
     /// Of the unit chord: the sign of a mirror, and of a derivative of this order.
     fn sign(&self, order: usize) -> f64 {
-        let flips = self.mirrored != (self.backwards && order % 2 == 0);
+        let flips = self.mirrored != (self.backwards && order.is_multiple_of(2));
         if flips { -1.0 } else { 1.0 }
     }
 
@@ -210,10 +210,7 @@ impl<G: GeneratingCurve> CurvatureMap for Cuts<G> {
         let determinant = (sin0 - k0) * (k1 - sin1) + sin0 * sin1;
         // dσ by (theta0, theta1), times the determinant.
         let sigma = [[k1 - sin1, -sin1], [sin0, sin0 - k0]];
-        let by_sigma = [
-            [slope0 - k0 * cos0, k0 * cos1],
-            [-k1 * cos0, slope1 + k1 * cos1],
-        ];
+        let by_sigma = [[slope0 - k0 * cos0, k0 * cos1], [-k1 * cos0, slope1 + k1 * cos1]];
         let by_angle = by_sigma.map(|[by0, by1]| {
             [0, 1].map(|angle| {
                 let slope = (by0 * sigma[0][angle] + by1 * sigma[1][angle]) / determinant;

@@ -1,5 +1,6 @@
 //! Cuts of a generating curve that is only known as a function κ(s).
 
+use std::cell::Cell;
 use std::f64::consts::PI;
 use std::fmt;
 use std::sync::{Arc, LazyLock};
@@ -23,7 +24,7 @@ use crate::two_param::generating::{Cut, GeneratingCurve};
 ///
 /// Of each cut, the place of its middle and its length are found. Where curvature hardly changes
 /// along a cut (end tangents equal to a part in 10⁸) it is an Euler spiral to rounding, and is
-/// taken from there, since arcs may lie at infinity. Which end tangents have cuts depends on κ: all,
+/// taken from there, since arcs may lie at infinity; if the curve tends to arcs at all. Which end tangents have cuts depends on κ: all,
 /// where |κ| grows without bound or to a limit on both sides of an inflection; only convex ones,
 /// without an inflection; only small ones, where κ oscillates.
 #[derive(Clone)]
@@ -36,7 +37,7 @@ pub struct Generated {
 pub enum NotGenerating {
     /// It changes sign and isn't odd: its mirror image and reversal would be other curves.
     NeitherOddNorOfOneSign,
-    /// It is constant, or nowhere a number: its cuts aren't a two-parameter family.
+    /// It is constant, nowhere a number, or changes at other scales than s from 1e-8 to 1e16.
     Constant,
 }
 
@@ -44,7 +45,7 @@ impl fmt::Display for NotGenerating {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             NotGenerating::NeitherOddNorOfOneSign => "it changes sign and isn't odd",
-            NotGenerating::Constant => "it doesn't change with `s`",
+            NotGenerating::Constant => "it hardly changes with `s` from 1e-8 to 1e16",
         })
     }
 }
@@ -62,6 +63,8 @@ struct Kappa {
     slope: f64,
     /// The stretch along which curvature rises: what is cut from.
     stretch: [f64; 2],
+    /// Whether it tends to circles, κ′/κ² → 0, where the stretch ends.
+    has_arcs: bool,
     /// Middles, ascending, with κ′/κ² there, for first guesses.
     places: Vec<(f64, f64)>,
 }
@@ -115,8 +118,7 @@ impl Source {
                     (sum([8.0 / 5.0, -1.0 / 5.0, 8.0 / 315.0, -1.0 / 560.0], even)
                         - here * 205.0 / 72.0)
                         / (h * h),
-                    sum([-61.0 / 30.0, 169.0 / 120.0, -3.0 / 10.0, 7.0 / 240.0], odd)
-                        / (h * h * h),
+                    sum([-61.0 / 30.0, 169.0 / 120.0, -3.0 / 10.0, 7.0 / 240.0], odd) / (h * h * h),
                 ]
             }
         }
@@ -157,9 +159,11 @@ impl Kappa {
             let outside = outside.and_then(|i| samples.get(i)).map(|(s, _)| *s);
             outside.and_then(|s| monotone_root(|s| self.jet(s)[1], inside, s)).unwrap_or(inside)
         };
+        let falls_after = |i: usize| samples.get(i + 1).is_some_and(|(_, k)| *k < samples[i].1);
         let low = turn(best.start, best.start.checked_sub(1));
         let high = turn(best.end, Some(best.end + 1));
         self.stretch = if self.is_odd { [-high, high] } else { [low, high] };
+        self.has_arcs = !falls_after(best.end);
     }
 
     /// How curvature leaves an inflection.
@@ -186,9 +190,7 @@ impl Generated {
     /// assert!(Generated::new(|s| s + s.powi(3)).is_ok());
     /// assert!(Generated::new(|s| s + s * s).is_err());
     /// ```
-    pub fn new(
-        kappa: impl Fn(f64) -> f64 + Send + Sync + 'static,
-    ) -> Result<Self, NotGenerating> {
+    pub fn new(kappa: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Result<Self, NotGenerating> {
         Generated::from_source(Source::Function(Box::new(kappa)))
     }
 
@@ -226,12 +228,13 @@ impl Generated {
             return Err(NotGenerating::NeitherOddNorOfOneSign);
         }
         // Backwards where curvature, made positive, falls more often than it rises.
-        let rises = |pair: &[(f64, f64)]| (pair[1].1 - pair[0].1) * sign > 0.0;
-        let falls = |pair: &[(f64, f64)]| (pair[1].1 - pair[0].1) * sign < 0.0;
-        let count = |is: &dyn Fn(&[(f64, f64)]) -> bool| {
-            samples.windows(2).filter(|pair| is(pair)).count()
-        };
-        let is_backwards = !is_odd && count(&falls) > count(&rises);
+        let changes: f64 = samples
+            .windows(2)
+            .map(|pair| (pair[1].1 - pair[0].1) * sign)
+            .filter(|rise| *rise != 0.0 && !rise.is_nan())
+            .map(f64::signum)
+            .sum();
+        let is_backwards = !is_odd && changes < 0.0;
         let flips = [sign, if is_backwards { -1.0 } else { 1.0 }];
         for (s, curvature) in &mut samples {
             *s *= flips[1];
@@ -245,6 +248,7 @@ impl Generated {
             order: 1.0,
             slope: 1.0,
             stretch: [0.0; 2],
+            has_arcs: false,
             places: Vec::new(),
         };
         kappa.find_stretch(&samples);
@@ -261,6 +265,9 @@ impl Generated {
                 kappa.places.push((s, sharpness));
             }
         }
+        /// So flat that what follows may be taken for circles.
+        const NEARLY_FLAT: f64 = 1e-6;
+        kappa.has_arcs &= kappa.places.last().is_some_and(|(_, last)| *last < NEARLY_FLAT);
         if kappa.places.len() < 2 {
             return Err(NotGenerating::Constant);
         }
@@ -333,8 +340,7 @@ static COLLOCATION: LazyLock<Collocation> = LazyLock::new(|| {
     };
     let values: Vec<[f64; 18]> = rule.iter().map(|(x, _)| legendre(2.0 * x)).collect();
     // Coefficient n of f: (2n + 1) Σ wⱼ Pₙ(xⱼ) f(xⱼ), on an interval of length 1.
-    let coefficient =
-        |n: usize, j: usize| (2 * n + 1) as f64 * weights[j] * values[j][n];
+    let coefficient = |n: usize, j: usize| (2 * n + 1) as f64 * weights[j] * values[j][n];
     let integral = std::array::from_fn(|i| {
         std::array::from_fn(|j| {
             let of_constant = coefficient(0, j) * nodes[i];
@@ -402,7 +408,7 @@ impl GeneratedCut {
         /// Halvings towards a singularity.
         const DEEPEST: usize = 30;
         /// For functions that no number of panels can resolve.
-        const MOST_PANELS: usize = 60;
+        const MOST_PANELS: usize = 40;
         let scale = stretch(kappa, from, to).largest;
         let mut waiting = if from < 0.0 && to > 0.0 {
             vec![(0.0, to, 0), (from, 0.0, 0)]
@@ -510,7 +516,8 @@ impl GeneratingCurve for Generated {
         if !(theta1 >= theta0.abs() && theta1 < PI) {
             return None;
         }
-        if theta1 - theta0 <= NEARLY_AN_ARC * (theta0 + theta1) || theta1 < NO_ANGLE {
+        let is_arc = theta1 - theta0 <= NEARLY_AN_ARC * (theta0 + theta1);
+        if (is_arc && self.kappa.has_arcs) || theta1 < NO_ANGLE {
             return GeneratedCut::spiral(angles);
         }
         if theta0 < 0.0 && !self.kappa.is_odd {
@@ -607,12 +614,19 @@ impl Generated {
     /// The same slowly: for every middle the shortest length that gives `theta1`, and the middle for
     /// which `theta0` is right too.
     fn by_bisection(&self, angles: ChordAngles) -> Option<GeneratedCut> {
+        /// Cuts measured at most; where there is one, about 100 are enough.
+        const MOST_CUTS: usize = 150;
         let [least, most] = self.kappa.stretch;
-        let cut = |middle: f64, length: f64| {
-            self.between(middle - length / 2.0, middle + length / 2.0)
+        let left = Cell::new(MOST_CUTS);
+        let angles_of = |middle: f64, length: f64| {
+            if left.get() == 0 {
+                return ChordAngles::new(f64::NAN, f64::NAN);
+            }
+            left.set(left.get() - 1);
+            self.between(middle - length / 2.0, middle + length / 2.0).angles()
         };
         let length = |middle: f64| {
-            let off = |length: f64| cut(middle, length).angles().theta1 - angles.theta1;
+            let off = |length: f64| angles_of(middle, length).theta1 - angles.theta1;
             let longest = 2.0 * (most - middle).min(middle - least);
             // Short enough to begin with, where curvature is small in the middle.
             let start = 0.5 * angles.theta1 / self.kappa.value(middle);
@@ -629,7 +643,7 @@ impl Generated {
             None
         };
         let off = |middle: f64| match length(middle) {
-            Some(length) => cut(middle, length).angles().theta0 - angles.theta0,
+            Some(length) => angles_of(middle, length).theta0 - angles.theta0,
             None => f64::NAN,
         };
         let inflection = self.kappa.is_odd.then_some(0.0);
@@ -653,8 +667,13 @@ impl Generated {
         if !is_bracket {
             return None;
         }
-        let middle = monotone_root(off, middles[low], middles[high])?;
-        let length = length(middle)?;
-        self.refined(angles, middle, length)
+        // Newton's method may do the rest from either side.
+        let refined = [low, high].into_iter().find_map(|i| {
+            length(middles[i]).and_then(|length| self.refined(angles, middles[i], length))
+        });
+        refined.or_else(|| {
+            let middle = monotone_root(off, middles[low], middles[high])?;
+            self.refined(angles, middle, length(middle)?)
+        })
     }
 }

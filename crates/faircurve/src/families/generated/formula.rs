@@ -151,12 +151,7 @@ fn product(a: Series, b: Series) -> Series {
 /// f(g(s)) from the series of f about g(s).
 fn compose(f: Series, g: Series) -> Series {
     let [_, a, b, c] = g;
-    [
-        f[0],
-        f[1] * a,
-        f[1] * b + f[2] * a * a,
-        f[1] * c + 2.0 * f[2] * a * b + f[3] * a * a * a,
-    ]
+    [f[0], f[1] * a, f[1] * b + f[2] * a * a, f[1] * c + 2.0 * f[2] * a * b + f[3] * a * a * a]
 }
 
 /// xᵖ.

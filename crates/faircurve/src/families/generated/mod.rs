@@ -15,6 +15,7 @@ use crate::outline::Join;
 use crate::plan::Run;
 use crate::segment::{Segment, Shape};
 use crate::spline::{Effort, Place, Relaxation, RunSolution, Spline};
+use crate::tolerance::SOLVED;
 use crate::two_param::continuity::{Continuity, NaturalEnd};
 use crate::two_param::curvature_map::{CurvatureMap, EndCurvatures, SegmentContext};
 use crate::two_param::generating::Cuts;
@@ -141,9 +142,10 @@ impl Spline for GeneratedSpline {
                     place: Place::Segment(i),
                     asked: INFO.name,
                     got: "euler",
-                    reason: "the generating curve has no piece with the tangents at this segment's \
+                    reason:
+                        "the generating curve has no piece with the tangents at this segment's \
                              ends; add a knot where it turns most, or choose another `kappa`"
-                        .to_owned(),
+                            .to_owned(),
                 });
             }
         }
@@ -165,6 +167,10 @@ impl TangentRule for ByWayOfEuler {
     }
 
     fn search(&self, run: &Run, _effort: Effort) -> Tangents {
+        let direct = self.tangents(run);
+        if direct.residual() <= SOLVED {
+            return direct;
+        }
         let own = Cuts { curve: self.curve.clone() };
         let mut tangents = Continuity { map: EulerSpirals, end: self.end }.tangents(run);
         for part in [0.25, 0.5, 0.75, 0.9] {
@@ -192,9 +198,8 @@ impl CurvatureMap for Blend {
         };
         EndCurvatures {
             value: [0, 1].map(|end| mix(a.value[end], b.value[end])),
-            by_angle: [0, 1].map(|end| {
-                [0, 1].map(|angle| mix(a.by_angle[end][angle], b.by_angle[end][angle]))
-            }),
+            by_angle: [0, 1]
+                .map(|end| [0, 1].map(|angle| mix(a.by_angle[end][angle], b.by_angle[end][angle]))),
         }
     }
 

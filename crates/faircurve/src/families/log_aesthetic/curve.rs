@@ -283,8 +283,7 @@ impl Near {
         let theta0 = (chord * at_start.conj()).arg();
         let over = chord.inv();
         // A change of the turning is one of scale: both ends slide in proportion to x.
-        let direction_by_turning =
-            ((at_end - at_start * small_end) * over).im / (order * turning);
+        let direction_by_turning = ((at_end - at_start * small_end) * over).im / (order * turning);
         let direction_by_end = -(at_start * over).im;
         let turning_by_end = if small_end == 0.0 { 0.0 } else { from * order / small_end };
         Near {
@@ -376,7 +375,7 @@ impl LogAestheticCut {
     }
 
     /// For near cuts: the integral from the inflection to `x`, in units of x.
-    fn from_inflection(&self, x: f64) -> Complex64 {
+    fn since_inflection(&self, x: f64) -> Complex64 {
         let turning = self.whole_turning() * x.abs().powf(self.order());
         fraction(self.order(), turning) * x
     }
@@ -412,13 +411,11 @@ impl Cut for LogAestheticCut {
             let pairs = GAUSS_24.nodes.iter().zip(GAUSS_24.pair_weights);
             let at = |place: f64| Complex64::from_polar(1.0, self.turning(place));
             let sum: Complex64 = pairs
-                .map(|(s, weight)| {
-                    (at(v * (0.5 - s)) + at(v * (0.5 + s))) * (weight / 2.0)
-                })
+                .map(|(s, weight)| (at(v * (0.5 - s)) + at(v * (0.5 + s))) * (weight / 2.0))
                 .sum();
             return sum * v;
         }
-        let along = self.from_inflection(self.x(v)) - self.from_inflection(self.small_end);
+        let along = self.since_inflection(self.x(v)) - self.since_inflection(self.small_end);
         let start = self.whole_turning() * self.small_end.abs().powf(self.order());
         along * Complex64::from_polar(1.0 / self.drop, -start)
     }

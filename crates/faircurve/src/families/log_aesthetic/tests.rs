@@ -57,9 +57,15 @@ fn alpha_1_is_the_euler_spiral() {
 fn derivatives_agree_with_differences() {
     for alpha in ALPHAS {
         let map = Cuts { curve: LogAesthetic::new(alpha) };
-        for (theta0, theta1) in
-            [(0.31, 0.3), (0.3, -0.8), (1.5, 1.4), (-2.5, 1.0), (2.8, 2.0), (-1e-3, 2e-3), (0.2, 0.2)]
-        {
+        for (theta0, theta1) in [
+            (0.31, 0.3),
+            (0.3, -0.8),
+            (1.5, 1.4),
+            (-2.5, 1.0),
+            (2.8, 2.0),
+            (-1e-3, 2e-3),
+            (0.2, 0.2),
+        ] {
             let exact = map.curvatures(ChordAngles::new(theta0, theta1), &SegmentContext::UNIT);
             let h = 1e-6;
             for angle in 0..2 {
@@ -73,7 +79,10 @@ fn derivatives_agree_with_differences() {
                     let slope = (up.value[end].num - down.value[end].num) / (2.0 * h);
                     let claimed = exact.by_angle[end][angle].num;
                     let off = (slope - claimed).abs() / (1.0 + slope.abs());
-                    assert!(off < 1e-6, "{alpha}: {theta0} {theta1} {end} {angle}: {slope} {claimed}");
+                    assert!(
+                        off < 1e-6,
+                        "{alpha}: {theta0} {theta1} {end} {angle}: {slope} {claimed}"
+                    );
                 }
             }
         }
@@ -103,5 +112,66 @@ fn cuts_continue_the_straight_line() {
                 last = Some(ends);
             }
         }
+    }
+}
+
+#[test]
+fn whatever_alpha_and_the_knots_numbers_are_finite() {
+    use crate::{Contour, catalog, catalog::Params, solve};
+    let hard = [
+        Contour::open([(0.0, 0.0), (1.0, 0.0), (1.0, 1e-9), (-3.0, 0.5), (-3.0, -1e12)]),
+        Contour::open([(0.0, 0.0), (1e-9, 1e-9), (1e9, 0.0), (1e9, 1e-9), (0.0, 1e-8)]),
+        Contour::closed([(0.0, 0.0), (1.0, 0.0), (0.0, 0.0), (1.0, 1.0), (1.0, 0.0)]),
+        Contour::closed([(0.0, 0.0), (1.0, 0.0)]),
+        Contour::open((0..8).map(|i| (f64::from(i * i % 5), f64::from(i * 3 % 7)))),
+        Contour::open((0..9).map(|i| (f64::from(i), f64::from(i / 8)))),
+    ];
+    for alpha in ALPHAS {
+        for end in ["arc", "zero-curvature"] {
+            let params = Params::new().with("alpha", alpha).with("end", end);
+            let spline = catalog::build("log-aesthetic", &params).unwrap();
+            for contour in &hard {
+                let solution = solve(contour, &*spline).unwrap();
+                assert!(solution.report.residual.is_finite(), "{alpha}");
+                for segment in solution.curve.segments() {
+                    let numbers =
+                        [segment.length(), segment.bending_energy(), segment.direction(0.0)];
+                    assert!(numbers.into_iter().all(f64::is_finite), "{alpha}: {segment:?}");
+                    assert!(segment.point(segment.length() / 3.0).is_finite(), "{alpha}");
+                    assert!(segment.curvature_jet(0.0).into_iter().all(f64::is_finite), "{alpha}");
+                }
+            }
+        }
+    }
+}
+
+/// A knot on the curve changes nothing, whatever α.
+#[test]
+fn every_alpha_is_extensional_and_round() {
+    /// Below, curvature beside an inflection changes faster than tangents can say.
+    const STEEP: f64 = 0.2;
+    use crate::{Contour, catalog, catalog::Params, solve};
+    let points = [(0.0, 0.0), (1.0, 0.7), (2.0, 0.6), (2.5, -0.5), (3.7, -0.4), (4.0, 1.0)];
+    for alpha in ALPHAS.into_iter().filter(|alpha| *alpha >= STEEP) {
+        let spline = catalog::build("log-aesthetic", &Params::new().with("alpha", alpha)).unwrap();
+        let before = solve(&Contour::open(points), &*spline).unwrap();
+        assert!(before.report.relaxed.is_empty(), "{alpha}: {:?}", before.report);
+        for i in 0..5 {
+            let segment = &before.curve.segments()[i];
+            let mut longer = Contour::open(points);
+            let added = segment.point(0.3 * segment.length());
+            longer.knots.insert(i + 1, crate::Knot::new(added));
+            let after = solve(&longer, &*spline).unwrap();
+            for segment in before.curve.segments() {
+                for part in [0.0, 0.25, 0.5, 0.75] {
+                    let point = segment.point(part * segment.length());
+                    let (_, _, off) = after.curve.nearest(point, 1e-11).unwrap();
+                    assert!(off < 1e-8, "{alpha}: {off:e}");
+                }
+            }
+        }
+        let circle = [0.0, 1.0, 2.5, 3.0].map(|t: f64| (t.cos(), t.sin()));
+        let round = solve(&Contour::closed(circle), &*spline).unwrap();
+        assert!((round.curve.length() - std::f64::consts::TAU).abs() < 1e-12, "{alpha}");
     }
 }
