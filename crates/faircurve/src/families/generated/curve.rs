@@ -615,7 +615,7 @@ impl Generated {
     /// which `theta0` is right too.
     fn by_bisection(&self, angles: ChordAngles) -> Option<GeneratedCut> {
         /// Cuts measured at most; where there is one, about 100 are enough.
-        const MOST_CUTS: usize = 150;
+        const MOST_CUTS: usize = 400;
         let [least, most] = self.kappa.stretch;
         let left = Cell::new(MOST_CUTS);
         let angles_of = |middle: f64, length: f64| {
