@@ -2,6 +2,8 @@
 
 use faircurve::catalog::{Claim, ENTRIES, SplineInfo};
 use faircurve::kurbo::{Affine, Point, Vec2};
+use faircurve::spline::Stage;
+use faircurve::two_param::extract::{extract, largest_spread, segments_of};
 use faircurve::{Contour, Join, Knot, Solution, Spline, Status, catalog, solve};
 use proptest::prelude::*;
 
@@ -323,6 +325,44 @@ fn all_g2_polynomial_spirals_are_the_euler_spline() {
             Ok(())
         })
         .unwrap();
+}
+
+#[test]
+fn log_aesthetic_of_alpha_1_is_the_euler_spline() {
+    let alpha = catalog::Params::new().with("alpha", 1.0);
+    let ours = catalog::build("log-aesthetic", &alpha).unwrap();
+    let euler = catalog::spline("euler").unwrap();
+    let mut runner = proptest::test_runner::TestRunner::deterministic();
+    runner
+        .run(&contours(), |contour| {
+            let (a, b) = (solved(&contour, &*ours), solved(&contour, &*euler));
+            // The Euler spline also searches among windings.
+            if a.report.relaxed.is_empty() && b.report.stage == Stage::Plain {
+                let off = distance(&trace(&a), &trace(&b));
+                prop_assert!(off <= 1e-11 * size(&contour), "{off:e}");
+            }
+            Ok(())
+        })
+        .unwrap();
+}
+
+/// Theorem 1 (thesis 4.1): κ″/κ³ is a function of κ′/κ² if all segments are cut from one curve.
+#[test]
+fn what_claims_a_generating_curve_has_one_and_nothing_else_has() {
+    let places: Vec<f64> = (0..30).map(|i| 4.0 * 0.85f64.powi(i)).collect();
+    each_spline(|info, spline| {
+        if !info.claims.contains(&Claim::Parameters(2)) {
+            return;
+        }
+        let extracted = extract(&segments_of(spline, 1.5, 12), &places);
+        let spread = largest_spread(&extracted);
+        if info.claims.contains(&Claim::GeneratingCurve) {
+            assert!(extracted.len() > 10, "{}", info.name);
+            assert!(spread.is_some_and(|spread| spread < 1e-9), "{}: {spread:?}", info.name);
+        } else {
+            assert!(spread.is_none_or(|spread| spread > 1e-3), "{}: {spread:?}", info.name);
+        }
+    });
 }
 
 #[test]

@@ -8,13 +8,18 @@ use std::fmt;
 use crate::outline::Join;
 use crate::spline::Spline;
 
-use super::{bespoke, circle, euler, hobby, ikarus, kappa, kurgla1, lagrange, polygon, spiro};
+use super::{
+    bespoke, circle, euler, generated, hobby, ikarus, kappa, kurgla1, lagrange, log_aesthetic,
+    polygon, spiro,
+};
 
 /// Every spline, in the order in which lists show them.
 #[rustfmt::skip]
 pub const ENTRIES: &[&SplineInfo] = &[
     &spiro::INFO,
     &euler::INFO,
+    &log_aesthetic::INFO,
+    &generated::INFO,
     &kurgla1::INFO,
     &hobby::INFO,
     &bespoke::INFO,
@@ -216,6 +221,12 @@ impl Params {
         }
     }
 
+    /// The text given for `name`, or `default`: a number is text too. For use in
+    /// [`SplineInfo::build`].
+    pub fn text(&self, name: &str, default: &str) -> String {
+        self.0.get(name).map_or_else(|| default.to_owned(), ParamValue::to_string)
+    }
+
     /// The number given for `name`, or `default`. For use in [`SplineInfo::build`], after checking.
     pub fn number(&self, name: &str, default: f64) -> f64 {
         match self.0.get(name) {
@@ -257,6 +268,19 @@ pub enum CatalogError {
         /// What it takes instead.
         expected: String,
     },
+    /// The parameter takes text, but can't make sense of this one.
+    BadText {
+        /// The spline.
+        spline: &'static str,
+        /// The parameter.
+        param: &'static str,
+        /// The text given.
+        value: String,
+        /// What is wrong with it.
+        reason: String,
+        /// What it takes instead.
+        expected: String,
+    },
 }
 
 impl fmt::Display for CatalogError {
@@ -268,6 +292,9 @@ impl fmt::Display for CatalogError {
             }
             CatalogError::BadValue { spline, param, value, .. } => {
                 write!(f, "parameter `{param}` of spline `{spline}` can't be `{value}`")
+            }
+            CatalogError::BadText { spline, param, value, reason, .. } => {
+                write!(f, "parameter `{param}` of spline `{spline}` can't be `{value}`: {reason}")
             }
         }
     }
@@ -291,7 +318,9 @@ impl CatalogError {
                     suggest(asked, params.iter().map(|param| param.name))
                 }
             }
-            CatalogError::BadValue { expected, .. } => format!("it takes {expected}"),
+            CatalogError::BadValue { expected, .. } | CatalogError::BadText { expected, .. } => {
+                format!("it takes {expected}")
+            }
         }
     }
 }

@@ -2,6 +2,12 @@
 
 use super::gauss_legendre::GAUSS_16;
 
+/// The nodes of sixteen in [−½, ½], ascending within each half, with their weights.
+pub(crate) fn nodes_16() -> impl Iterator<Item = (f64, f64)> {
+    let pairs = GAUSS_16.nodes.iter().zip(GAUSS_16.pair_weights);
+    pairs.flat_map(|(s, weight)| [(-s, weight / 2.0), (*s, weight / 2.0)])
+}
+
 /// The integral of `f` over [`from`, `to`] by sixteen nodes: exact for polynomials up to degree 31.
 pub(crate) fn gauss_16(f: &impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
     let (middle, width) = ((from + to) / 2.0, to - from);

@@ -39,13 +39,10 @@ pub struct Continuity<M> {
 
 impl<M: CurvatureMap> TangentRule for Continuity<M> {
     fn tangents(&self, run: &Run) -> Tangents {
-        let mut system = TangentSystem::new(self, run);
-        let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
-        let outcome = newton(&mut system, &mut matrix, PLAIN);
-        system.finish(outcome.iterations)
+        self.tangents_from(run, None)
     }
 
-    /// Shifted Newton steps from the same start ([`TangentSystem::approach`]), on rounded numbers, so
+    /// Shifted Newton steps from the same start (`TangentSystem::approach`), on rounded numbers, so
     /// that copies which are moved, turned or scaled take the same course; the last word is Newton's,
     /// on the exact ones. Where that fails, knots are given up one after the other: they keep the
     /// tangent of the circle.
@@ -87,6 +84,19 @@ impl<M: CurvatureMap> TangentRule for Continuity<M> {
             }
         }
         Tangents { stage: Stage::Mended, ..exact.finish(taken) }
+    }
+}
+
+impl<M: CurvatureMap> Continuity<M> {
+    /// The tangents found from those of another map for the same run, or from circles.
+    pub fn tangents_from(&self, run: &Run, start: Option<&Tangents>) -> Tangents {
+        let mut system = TangentSystem::new(self, run);
+        if let Some(start) = start {
+            system.start_from(start);
+        }
+        let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
+        let outcome = newton(&mut system, &mut matrix, PLAIN);
+        system.finish(outcome.iterations)
     }
 }
 
@@ -293,6 +303,20 @@ impl<'a, M: CurvatureMap> TangentSystem<'a, M> {
         self.tangents[knot] = start[knot];
     }
 
+    /// Tangents that are known roughly.
+    fn start_from(&mut self, known: &Tangents) {
+        let n = self.tangents.len();
+        for (tangent, ends) in self.tangents.iter_mut().zip(&known.ends) {
+            *tangent = ends.angles.theta0;
+        }
+        if let (false, Some(last)) = (self.closed, known.ends.last()) {
+            self.tangents[n - 1] = last.angles.theta1;
+        }
+        for i in 0..n {
+            self.keep_in_range(i);
+        }
+    }
+
     /// The end tangents of a segment.
     fn angles(&self, segment: usize) -> ChordAngles {
         let end = (segment + 1) % self.tangents.len();
@@ -363,7 +387,8 @@ impl<M: CurvatureMap> TangentSystem<'_, M> {
                     self.responses[l].by_angle[1].map(|by| v.angle_by(&Turned::new(by, cl, cr)));
                 let [r0, r1] =
                     self.responses[r].by_angle[0].map(|by| w.angle_by(&Turned::new(by, cr, cl)));
-                Row { value: v.angle_to(&w), lower: -l0, diagonal: l1 + r0, upper: r1 * next }
+                let (value, [dv, dw]) = v.straightened_angle_to(&w, self.order_at(l, r));
+                Row { value, lower: -l0 * dv, diagonal: l1 * dv + r0 * dw, upper: r1 * dw * next }
             }
             (Equation::Direction(angle), _, _) => {
                 Row { value: self.tangents[i] - angle, diagonal: 1.0, ..Row::default() }
@@ -387,6 +412,21 @@ impl<M: CurvatureMap> TangentSystem<'_, M> {
             // A knot without a segment, or continuity at an end: nothing to ask.
             _ => Row { diagonal: 1.0, ..Row::default() },
         }
+    }
+
+    /// The order of the roots to compare where these segments meet. Roots of an order above 1 would be
+    /// steep where a whole segment is nearly straight, so that they are for knots that are near an
+    /// inflection of both segments.
+    fn order_at(&self, before: usize, after: usize) -> f64 {
+        /// An end's curvature over that of the other end, below which it is near an inflection.
+        const NEAR: f64 = 0.3;
+        let order = self.map.order();
+        let is_near = |segment: usize, end: usize| {
+            let value = &self.responses[segment].value;
+            value[end].num.abs() < NEAR * value[1 - end].num.abs()
+        };
+        let is_useful = order < 1.0 || (is_near(before, 1) && is_near(after, 0));
+        if is_useful { order } else { 1.0 }
     }
 
     /// How far a free end at the start (0) or end (1) of a segment is from what must hold there, and
@@ -518,6 +558,29 @@ impl Turned {
     fn angle_to(&self, other: &Turned) -> f64 {
         (self.den * other.num - self.num * other.den)
             .atan2(self.den * other.den + self.num * other.num)
+    }
+
+    /// The same for curvatures that leave zero with some power: the angle between their roots of
+    /// that order, and by how much more than [`angle_to`](Self::angle_to) it changes with the
+    /// angle of either vector.
+    ///
+    /// Roots are taken of curvature over a common size, which is held while differentiating: where
+    /// curvatures agree, it doesn't matter.
+    fn straightened_angle_to(&self, other: &Turned, order: f64) -> (f64, [f64; 2]) {
+        /// Curvatures over their common size count as no smaller in derivatives.
+        const SMALLEST: f64 = 1e-200;
+        let curvatures = [self.num / self.den, other.num / other.den];
+        let size = curvatures[0].abs().max(curvatures[1].abs());
+        if order == 1.0 || !(size > 0.0 && size.is_finite()) {
+            return (self.angle_to(other), [1.0; 2]);
+        }
+        let roots = curvatures.map(|k| size * (k.abs() / size).powf(1.0 / order).copysign(k));
+        let more = [0, 1].map(|i| {
+            let (k, root) = (curvatures[i], roots[i]);
+            let slope = (k.abs() / size).max(SMALLEST).powf(1.0 / order - 1.0) / order;
+            slope * (1.0 + k * k) / (1.0 + root * root)
+        });
+        (roots[1].atan() - roots[0].atan(), more)
     }
 
     /// Derivative of the vector's angle.

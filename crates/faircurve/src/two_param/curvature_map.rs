@@ -50,4 +50,10 @@ pub trait CurvatureMap: fmt::Debug + Send + Sync {
     fn is_periodic(&self) -> bool {
         false
     }
+
+    /// The power of a change of angle with which curvature leaves zero, 1 for most. The search
+    /// compares roots of that order of the curvatures at a knot, which are nearly linear.
+    fn order(&self) -> f64 {
+        1.0
+    }
 }

@@ -8,6 +8,9 @@
 
 pub mod continuity;
 pub mod curvature_map;
+pub mod extract;
+pub mod generating;
+pub mod lookup_table;
 pub mod shape;
 pub mod spline;
 pub mod tangents;
