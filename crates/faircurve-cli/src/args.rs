@@ -17,7 +17,6 @@ struct Cli {
 }
 
 #[derive(Debug, Subcommand)]
-#[expect(clippy::large_enum_variant, reason = "there is only ever one")]
 pub(crate) enum Command {
     /// Solve drawings and fonts: find the curves and write them.
     ///
