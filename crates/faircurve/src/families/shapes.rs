@@ -6,8 +6,8 @@ use super::catalog::{ParamKind, ParamSpec, Params};
 use super::euler::EulerSpirals;
 use super::hobby::HobbyCubics;
 use super::ikarus::Biarcs;
-use super::potrace::PotraceCubics;
 use super::kappa::BiParabolas;
+use super::potrace::PotraceCubics;
 use super::spiro::PolynomialSpirals;
 use crate::two_param::shape::SegmentShape;
 
