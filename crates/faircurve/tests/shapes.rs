@@ -5,12 +5,9 @@ use faircurve::kurbo::{Point, Vec2};
 use faircurve::{Contour, Effort, Join, Knot, Solution, Spline, Status, solve, solve_with};
 use proptest::prelude::*;
 
-/// Known failure: kappa returns lengths that are no numbers where chords are in ratio 1e15.
-const KNOWN_TO_FAIL: &[&str] = &[];
-
 /// Every entry with every choice of every parameter.
 fn each_choice(law: impl Fn(&str, &dyn Spline)) {
-    for info in ENTRIES.iter().filter(|info| !KNOWN_TO_FAIL.contains(&info.name)) {
+    for info in ENTRIES {
         law(info.name, &*catalog::spline(info.name).unwrap());
         for spec in info.params {
             let ParamKind::Choice { options } = spec.kind else { continue };
@@ -112,8 +109,8 @@ fn shapes_keep_the_tangents_of_the_rule() {
             let spline = catalog::build(info.name, &params).unwrap();
             let solution = solve(&contour, &*spline).unwrap();
             let relaxed = &solution.report.relaxed;
-            // Another shape needn't have the curvatures that the rule made continuous.
-            let is_smooth = relaxed.iter().all(|r| r.got == "g1");
+            // Another shape needn't have what the rule made of curvatures.
+            let is_smooth = relaxed.iter().all(|r| r.got != "corner");
             assert!(is_smooth, "{} {option}: {relaxed:?}", info.name);
             for (a, b) in own.knots.iter().zip(&solution.knots) {
                 let off = a.direction_out.unwrap() - b.direction_out.unwrap();

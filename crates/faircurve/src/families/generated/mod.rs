@@ -166,7 +166,7 @@ impl TangentRule for ByWayOfEuler {
         Continuity { map: Cuts { curve: self.curve.clone() }, end: self.end }.tangents(run)
     }
 
-    fn search(&self, run: &Run, _effort: Effort) -> Tangents {
+    fn search(&self, run: &Run, effort: Effort) -> Tangents {
         let direct = self.tangents(run);
         if direct.residual() <= SOLVED {
             return direct;
@@ -177,7 +177,9 @@ impl TangentRule for ByWayOfEuler {
             let map = Blend { own: own.clone(), part };
             tangents = Continuity { map, end: self.end }.tangents_from(run, Some(&tangents));
         }
-        Continuity { map: own, end: self.end }.tangents_from(run, Some(&tangents))
+        let rule = Continuity { map: own, end: self.end };
+        let found = rule.tangents_from(run, Some(&tangents));
+        if found.residual() <= SOLVED { found } else { rule.search(run, effort) }
     }
 }
 
