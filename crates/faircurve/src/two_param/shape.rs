@@ -26,8 +26,6 @@ pub struct StandIn {
     pub asked: &'static str,
     /// The name of the shape drawn.
     pub got: &'static str,
-    /// Whether the segment has the end curvatures all the same.
-    pub keeps_curvature: bool,
     /// Why, in words for a designer.
     pub reason: &'static str,
 }

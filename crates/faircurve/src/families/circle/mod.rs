@@ -117,8 +117,7 @@ impl SegmentShape for CircleBlends {
         if !(angles.theta0.abs().max(angles.theta1.abs()) <= LIMIT + 1e-9) {
             let reason = "the tangents given there point back along the segment, where circles \
                           have no end; turn them, or add a knot";
-            let stand_in =
-                StandIn { asked: INFO.name, got: "euler", keeps_curvature: false, reason };
+            let stand_in = StandIn { asked: INFO.name, got: "euler", reason };
             return (EulerSpirals.place(start, end, ends), Some(stand_in));
         }
         let blend = CircleBlend::new(angles);

@@ -93,8 +93,7 @@ impl SegmentShape for SiMecs {
             None => {
                 let reason = "the tangents given there would close the segment into a circle \
                               without a chord; turn them, or add a knot";
-                let stand_in =
-                    StandIn { asked: INFO.name, got: "euler", keeps_curvature: false, reason };
+                let stand_in = StandIn { asked: INFO.name, got: "euler", reason };
                 (EulerSpirals.place(start, end, ends), Some(stand_in))
             }
         }

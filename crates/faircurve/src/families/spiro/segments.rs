@@ -50,8 +50,6 @@ impl<S: SegmentShape> SegmentShape for SpiroSegments<S> {
         let stand_in = StandIn {
             asked: "spiro",
             got: further.map_or("own", |further| further.got),
-            keeps_curvature: further
-                .map_or(self.own.keeps_curvature(), |further| further.keeps_curvature),
             reason: "no polynomial spiral has the tangents and the curvatures that the segment has \
                      at its ends; move a knot, or add one where the curve turns most",
         };

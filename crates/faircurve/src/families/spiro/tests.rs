@@ -161,11 +161,10 @@ fn what_it_cannot_fill_the_own_shape_fills_and_the_report_says_so() {
         };
         assert_eq!(of(true).count(), 5);
         assert!(of(true).all(|relaxed| (relaxed.asked, relaxed.got) == ("spiro", "own")));
-        // `Wild` has Euler's curvatures in truth: claimed to be those of the map, the jumps count as
-        // errors; admitted not to be, the knots are relaxed to G1.
-        assert_eq!(of(false).count(), if own.0 { 0 } else { 4 });
+        // `Wild` has Euler's curvatures in truth, whatever it claims: the knots are relaxed to G1.
+        assert_eq!(of(false).count(), 4);
         assert!(of(false).all(|relaxed| (relaxed.asked, relaxed.got) == ("g2", "g1")));
-        assert_eq!(report.residual > 1e-9, own.0, "{report:?}");
+        assert!(report.residual <= 1e-9, "{report:?}");
     }
 }
 
