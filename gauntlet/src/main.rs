@@ -1,6 +1,7 @@
 //! faircurve and libspiro side by side: see the README.
 
 mod against_search;
+mod bezier;
 mod all;
 mod classes;
 #[cfg(libspiro)]
@@ -79,6 +80,12 @@ enum Command {
         #[arg(long, default_value_t = 200)]
         cases: usize,
     },
+    /// Béziers against kurbo's fitters on six curves
+    Bezier {
+        /// Also kurbo's slow one
+        #[arg(long)]
+        opt: bool,
+    },
     /// Very many inputs that nobody would draw, through faircurve alone
     Hostile {
         /// Inputs in all
@@ -124,7 +131,7 @@ impl Command {
     fn is_alone(&self) -> bool {
         matches!(
             self,
-            Command::Hostile { .. } | Command::Search { .. } | Command::AgainstSearch { .. }
+            Command::Bezier { .. } | Command::Hostile { .. } | Command::Search { .. } | Command::AgainstSearch { .. }
         )
     }
 }
@@ -179,6 +186,7 @@ fn run(arguments: &Arguments) -> Result<Report, Failure> {
             let folder = yardstick.clone().unwrap_or_else(yardstick::default_folder);
             against_search::run(&folder, filter, &fonts_input::read(&[]).unwrap_or_default())
         }
+        Command::Bezier { opt } => bezier::run(*opt),
         Command::Hostile { cases, seed } => hostile::run(*cases, *seed),
     }
 }

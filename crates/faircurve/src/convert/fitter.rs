@@ -1,0 +1,79 @@
+//! One cubic for one piece, by the metric and the kind of fit that are asked for.
+
+use kurbo::CubicBez;
+
+use super::certificate::distance_bound;
+use super::minimax::{Fit as Arms, minimax};
+use super::options::{Fit, Metric};
+use super::piece::{Piece, Stretch};
+
+/// Fits cubics to pieces of one stretch.
+#[derive(Debug)]
+pub(super) struct Fitter<'a> {
+    pub(super) stretch: &'a Stretch<'a>,
+    pub(super) metric: Metric,
+    pub(super) fit: Fit,
+    /// What errors are held against, in the metric's units.
+    pub(super) accuracy: f64,
+}
+
+/// A cubic that may do.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub(super) piece: Piece,
+    pub(super) arms: Arms,
+    /// Its error in the metric's units; of distances an estimate.
+    pub(super) error: f64,
+}
+
+/// A cubic that is part of the result.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cubic {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    /// Arm lengths in user units.
+    pub(super) arms: [f64; 2],
+    /// Error in the metric's units; of distances the bound.
+    pub(super) error: f64,
+    /// A bound of the distance, in user units.
+    pub(super) bound: f64,
+}
+
+impl Fitter<'_> {
+    /// The best cubic for a piece.
+    pub(super) fn try_piece(&self, from: f64, to: f64) -> Candidate {
+        let piece = self.stretch.piece(from, to);
+        let arms = minimax(&piece);
+        Candidate { piece, arms, error: arms.error * piece.half }
+    }
+
+    /// The candidate with its bound.
+    pub(super) fn certify(&self, candidate: &Candidate) -> Cubic {
+        let Candidate { piece, arms, error } = candidate;
+        let lengths = arms.arms.map(|arm| arm * piece.half);
+        let mut bound = distance_bound(self.stretch, piece, arms);
+        if !bound.is_finite() {
+            bound = farthest_apart(piece, lengths);
+        }
+        let error = if self.metric == Metric::Distance { bound } else { *error };
+        Cubic { from: piece.from, to: piece.to, arms: lengths, error, bound }
+    }
+
+    /// The cubic in place.
+    pub(super) fn place(&self, cubic: &Cubic) -> CubicBez {
+        let [from, to] = [cubic.from, cubic.to].map(|s| self.stretch.joint(s));
+        CubicBez::new(
+            from.point,
+            from.point + from.tangent * cubic.arms[0],
+            to.point - to.tangent * cubic.arms[1],
+            to.point,
+        )
+    }
+}
+
+/// How far apart a piece and a cubic on the same ends can be at most, whatever their shapes: both
+/// start in one place, the piece ends within its length of it, and control points lie within the longer arm
+/// of the ends.
+fn farthest_apart(piece: &Piece, arms: [f64; 2]) -> f64 {
+    4.0 * piece.half + arms[0].max(arms[1])
+}

@@ -1,0 +1,282 @@
+//! The cubic with exact ends and end tangents whose largest distance from a piece is least.
+//!
+//! Two arm lengths are free. To first order the deviation along the curve's normal is linear in them, and
+//! of a linear problem with two unknowns the best solution has its largest deviation at three places: three equations
+//! for the arms and the deviation, and an exchange finds the places (Remez). A few rounds of this
+//! from the cubics in sixth-order [contact](super::contact).
+
+use num_complex::Complex64;
+
+use super::contact::{MINIMAX_Q, Start, contact_starts, cross, dot};
+use super::piece::{NODES, PLACES, Piece};
+
+/// A cubic in the frame of a piece, by powers of its parameter.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LocalCubic(pub(super) [Complex64; 4]);
+
+impl LocalCubic {
+    /// The cubic with the piece's ends and end tangents and these arms, in units of the half length.
+    pub(super) fn with_arms(piece: &Piece, arms: [f64; 2]) -> Self {
+        let [p0, p3] = piece.ends;
+        let p1 = p0 + piece.end_tangents[0] * arms[0];
+        let p2 = p3 - piece.end_tangents[1] * arms[1];
+        LocalCubic::of_points([p0, p1, p2, p3])
+    }
+
+    pub(super) fn of_points([p0, p1, p2, p3]: [Complex64; 4]) -> Self {
+        LocalCubic([
+            p0,
+            (p1 - p0) * 3.0,
+            (p2 - p1 * 2.0 + p0) * 3.0,
+            p3 - p0 + (p1 - p2) * 3.0,
+        ])
+    }
+
+    pub(super) fn at(&self, t: f64) -> Complex64 {
+        let [c0, c1, c2, c3] = self.0;
+        c0 + (c1 + (c2 + c3 * t) * t) * t
+    }
+
+    pub(super) fn velocity(&self, t: f64) -> Complex64 {
+        let [_, c1, c2, c3] = self.0;
+        c1 + (c2 * 2.0 + c3 * (3.0 * t)) * t
+    }
+
+    /// A bound of the speed between two parameters.
+    pub(super) fn fastest(&self, from: f64, to: f64) -> f64 {
+        let most = self.acceleration(from).norm().max(self.acceleration(to).norm());
+        self.velocity(from).norm().min(self.velocity(to).norm()) + most * (to - from)
+    }
+
+    pub(super) fn acceleration(&self, t: f64) -> Complex64 {
+        let [_, _, c2, c3] = self.0;
+        c2 * 2.0 + c3 * (6.0 * t)
+    }
+}
+
+/// A cubic for a piece.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fit {
+    /// Arm lengths, in units of the half length.
+    pub(super) arms: [f64; 2],
+    /// Parameters of the cubic beside the nodes of the piece.
+    pub(super) params: [f64; NODES],
+    /// Deviation along the normal at each node, in units of the half length.
+    pub(super) deviation: [f64; NODES],
+    /// The largest of them: an estimate, not a bound. Infinite where the cubic doesn't run along
+    /// the piece.
+    pub(super) error: f64,
+}
+
+/// Rounds of the exchange for a start by contact, where one or two are enough, and for a cruder one.
+const CONTACT_ROUNDS: usize = 3;
+const CRUDE_ROUNDS: usize = 8;
+
+/// A deviation within this factor of the best that the exchange promises is good enough: the cuts
+/// lose a sixth of it in length.
+const GOOD_ENOUGH: f64 = 1.01;
+
+/// The best of the local minima of the largest deviation that were found.
+pub(super) fn minimax(piece: &Piece) -> Fit {
+    /// A contact worse than the best by more than this isn't tried: higher terms don't
+    /// change a deviation by so much on the pieces that a conversion ends up with.
+    const WORTH_TRYING: f64 = 4.0;
+    /// Pieces that turn more than this (radians) are too long for the expansion to be trusted alone.
+    const LONG: f64 = 1.5;
+    let mut best: Option<Fit> = None;
+    let mut consider = |fit: Fit| {
+        if best.is_none_or(|best| fit.error < best.error) {
+            best = Some(fit);
+        }
+    };
+    let mut is_long = true;
+    if let Some(series) = &piece.series {
+        let starts = contact_starts(series.kappa, piece, MINIMAX_Q);
+        let starts = starts.as_slice();
+        for start in starts {
+            if start.e6.abs() <= WORTH_TRYING * starts[0].e6.abs() {
+                consider(refine(piece, *start, CONTACT_ROUNDS));
+            }
+        }
+        is_long = starts.is_empty() || (series.angle(1.0) - series.angle(-1.0)).abs() > LONG;
+    }
+    if is_long {
+        let thirds = Start { arms: [2.0 / 3.0; 2], e6: f64::INFINITY };
+        consider(refine(piece, thirds, CRUDE_ROUNDS));
+    }
+    best.unwrap_or(Fit {
+        arms: [2.0 / 3.0; 2],
+        params: PLACES.map(|x| 0.5 + 0.5 * x),
+        deviation: [f64::INFINITY; NODES],
+        error: f64::INFINITY,
+    })
+}
+
+/// Exchange rounds from one start; the best arms seen.
+pub(super) fn refine(piece: &Piece, start: Start, rounds: usize) -> Fit {
+    let mut arms = start.arms;
+    let mut params = first_params(arms);
+    let mut best: Option<Fit> = None;
+    for round in 0..=rounds {
+        let fit = measure(piece, arms, params);
+        params = fit.params;
+        if best.is_none_or(|best| fit.error < best.error) {
+            best = Some(fit);
+        } else if round > 1 || !fit.error.is_finite() {
+            break;
+        }
+        if round == rounds {
+            break;
+        }
+        let Some((step, least)) = exchange(piece, &fit) else { break };
+        if fit.error <= GOOD_ENOUGH * least {
+            break;
+        }
+        for i in 0..2 {
+            // Far steps leave the range of the linear model.
+            let most = 0.3 * arms[i];
+            arms[i] += step[i].clamp(-most, most);
+        }
+    }
+    best.unwrap_or(Fit {
+        arms,
+        params,
+        deviation: [f64::INFINITY; NODES],
+        error: f64::INFINITY,
+    })
+}
+
+/// The cubic of Hermite's interpolation for t(x), whose slopes at the ends are 1/(3·arm).
+fn first_params([a, b]: [f64; 2]) -> [f64; NODES] {
+    let (slope0, slope1) = (2.0 / (3.0 * a), 2.0 / (3.0 * b));
+    PLACES.map(|x| {
+        let u = 0.5 + 0.5 * x;
+        let v = 1.0 - u;
+        (u * u * (3.0 - 2.0 * u) + u * v * (v * slope0 - u * slope1)).clamp(0.0, 1.0)
+    })
+}
+
+/// Deviations of the cubic with these arms along the normals of the piece, from approximate parameters.
+pub(super) fn measure(piece: &Piece, arms: [f64; 2], mut params: [f64; NODES]) -> Fit {
+    /// Newton's method for the foot on the cubic; the deviation feels what is left only squared.
+    const STEPS: usize = 2;
+    let cubic = LocalCubic::with_arms(piece, arms);
+    let mut deviation = [0.0; NODES];
+    let mut slowest = f64::INFINITY;
+    for i in 0..NODES {
+        let (place, tangent) = (piece.places[i], piece.tangents[i]);
+        // Along the tangent and along the normal: two real cubics.
+        let turned = cubic.0.map(|c| c * tangent.conj());
+        let place = place * tangent.conj();
+        let [r0, r1, r2, r3] = turned.map(|c| c.re);
+        let mut t = params[i];
+        for _ in 0..STEPS {
+            let ahead = r0 - place.re + (r1 + (r2 + r3 * t) * t) * t;
+            let speed = r1 + (2.0 * r2 + 3.0 * r3 * t) * t;
+            slowest = slowest.min(speed);
+            t = (t - ahead / speed).clamp(0.0, 1.0);
+        }
+        let [i0, i1, i2, i3] = turned.map(|c| c.im);
+        params[i] = t;
+        deviation[i] = i0 - place.im + (i1 + (i2 + i3 * t) * t) * t;
+    }
+    let mut error = deviation.iter().fold(0.0f64, |m, d| m.max(d.abs()));
+    // Where the cubic stands still or runs backwards beside the piece, it isn't a fit; nor is NaN.
+    if !(slowest > 0.0) || deviation.iter().any(|d| d.is_nan()) {
+        error = f64::INFINITY;
+        params = PLACES.map(|x| 0.5 + 0.5 * x);
+    }
+    Fit { arms, params, deviation, error }
+}
+
+/// The change of the arms that makes the largest deviation least, by the linear model, and what is
+/// then left.
+fn exchange(piece: &Piece, fit: &Fit) -> Option<([f64; 2], f64)> {
+    /// Never needed in full: each exchange raises the level, and there are 35 references.
+    const MOST_EXCHANGES: usize = 8;
+    let [t0, t1] = piece.end_tangents;
+    let mut by_a = [0.0; NODES];
+    let mut by_b = [0.0; NODES];
+    for i in 0..NODES {
+        let (t, tangent) = (fit.params[i], piece.tangents[i]);
+        let u = 1.0 - t;
+        by_a[i] = 3.0 * u * u * t * cross(tangent, t0);
+        by_b[i] = -3.0 * u * t * t * cross(tangent, t1);
+    }
+    // Three places decide: there is one combination of the three equations in which the arms cancel.
+    let level = |[i, j, k]: [usize; 3]| {
+        let combination = [
+            by_a[j] * by_b[k] - by_a[k] * by_b[j],
+            by_a[k] * by_b[i] - by_a[i] * by_b[k],
+            by_a[i] * by_b[j] - by_a[j] * by_b[i],
+        ];
+        let sum: f64 = combination.iter().map(|c| c.abs()).sum();
+        let deviation = combination[0] * fit.deviation[i]
+            + combination[1] * fit.deviation[j]
+            + combination[2] * fit.deviation[k];
+        (if sum > 0.0 { deviation / sum } else { 0.0 }, combination)
+    };
+    let mut reference = [1, 3, 5];
+    let (mut least, mut combination) = level(reference);
+    let mut step = [0.0; 2];
+    for _ in 0..MOST_EXCHANGES {
+        // The arms from the two of the three equations that know them best.
+        let (skipped, determinant) = (0..3)
+            .map(|skip| (skip, combination[skip]))
+            .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+        if !(determinant.abs() > f64::MIN_POSITIVE) {
+            return None;
+        }
+        let (first, second) = ((skipped + 1) % 3, (skipped + 2) % 3);
+        let (i, j) = (reference[first], reference[second]);
+        let right = [
+            least * combination[first].signum() - fit.deviation[i],
+            least * combination[second].signum() - fit.deviation[j],
+        ];
+        step = [
+            (right[0] * by_b[j] - right[1] * by_b[i]) / determinant,
+            (by_a[i] * right[1] - by_a[j] * right[0]) / determinant,
+        ];
+        let left =
+            |i: usize| (fit.deviation[i] + by_a[i] * step[0] + by_b[i] * step[1]).abs();
+        let worst = (0..NODES).max_by(|a, b| left(*a).total_cmp(&left(*b)))?;
+        if !(left(worst) > least.abs() * 1.000_001) {
+            break;
+        }
+        // Of four places, the three with the highest level are the answer.
+        let mut improved = (reference, least, combination);
+        for out in 0..3 {
+            let mut candidate = reference;
+            candidate[out] = worst;
+            let (level, combination) = level(candidate);
+            if level.abs() > improved.1.abs() {
+                improved = (candidate, level, combination);
+            }
+        }
+        if improved.0 == reference {
+            break;
+        }
+        (reference, least, combination) = improved;
+    }
+    step.iter().all(|step| step.is_finite()).then_some((step, least.abs()))
+}
+
+/// The parameter of the cubic's point whose projection onto the tangent at `place` is `place`; from a
+/// start, at most six steps of Newton's method.
+pub(super) fn foot(cubic: &LocalCubic, place: Complex64, tangent: Complex64, start: f64) -> f64 {
+    let mut t = start;
+    for _ in 0..6 {
+        let ahead = dot(cubic.at(t) - place, tangent);
+        let speed = dot(cubic.velocity(t), tangent);
+        let next = (t - ahead / speed).clamp(0.0, 1.0);
+        if !next.is_finite() {
+            return start;
+        }
+        let change = (next - t).abs();
+        t = next;
+        if change < 1e-12 {
+            break;
+        }
+    }
+    t
+}
