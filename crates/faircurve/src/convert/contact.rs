@@ -9,7 +9,7 @@
 //! 2A²α³ + 3ABα² + (9B² − 6AC)α + 3BC − 2AD = 0;
 //! each deviates along the normal by −E₆(x² − 1)²(x² − q) to leading order, where the metric only sets q.
 
-use kurbo::common::solve_cubic;
+use kurbo::common::{solve_cubic, solve_quadratic};
 use num_complex::Complex64;
 
 use super::piece::Piece;
@@ -50,6 +50,18 @@ pub(super) struct Starts {
 }
 
 impl Starts {
+    fn push(&mut self, start: Start) {
+        if self.count < self.starts.len() {
+            self.starts[self.count] = start;
+            self.count += 1;
+        }
+    }
+
+    /// The smallest |E₆| of those in contact.
+    pub(super) fn least(&self) -> Option<f64> {
+        self.as_slice().iter().map(|start| start.e6.abs()).find(|e6| *e6 > 0.0)
+    }
+
     pub(super) fn as_slice(&self) -> &[Start] {
         &self.starts[..self.count]
     }
@@ -64,43 +76,63 @@ pub(super) fn expansions(kappa: [f64; 4]) -> Starts {
     let d = (19.0 * k0 * k0 * k1 + k3) / 120.0;
     let e = k0 * (45.0 * k0 * k0 * k0 * k0 + 34.0 * k0 * k2 + 48.0 * k1 * k1) / 720.0;
     let mut starts = Starts { starts: [Start { arms: [2.0 / 3.0; 2], e6: 0.0 }; 3], count: 0 };
-    let roots = solve_cubic(
-        3.0 * b * c - 2.0 * a * d,
-        9.0 * b * b - 6.0 * a * c,
-        3.0 * a * b,
-        2.0 * a * a,
-    );
-    for alpha in roots {
-        // Beyond, the expansion means nothing (and NaN, of a curve that is nearly straight).
-        if !(alpha.abs() <= 2.0) || starts.count == 3 {
-            continue;
-        }
-        // Two forms of the same; the better conditioned one.
-        let (first, second) = (2.0 * a, 2.0 * a * alpha + 3.0 * b);
-        let beta = if first.abs() >= second.abs() {
-            -(a * alpha * alpha + 3.0 * b * alpha + c) / first
-        } else {
-            -(3.0 * b * alpha * alpha + 4.0 * c * alpha + d) / second
-        };
-        let e6 = a * beta * beta
-            + b * (alpha * alpha * alpha + 6.0 * alpha * beta)
-            + c * (6.0 * alpha * alpha + 4.0 * beta)
-            + 5.0 * d * alpha
-            + e;
-        // k₀²/6 turns the abscissa into arc length.
-        let quadratic = beta + k0 * k0 / 6.0;
-        let cubic = 2.0 * alpha * alpha - quadratic;
-        let (from, to) = (-1.0 - alpha - cubic, 1.0 - alpha + cubic);
-        let width = (to - from) / 3.0;
-        let arm = |t: f64| width * (1.0 + 2.0 * alpha * t + 3.0 * quadratic * t * t);
-        let arms = [arm(from), arm(to)];
-        if e6.is_finite() && arms.iter().all(|arm| *arm > 0.0 && *arm < 2.0) {
-            starts.starts[starts.count] = Start { arms, e6 };
-            starts.count += 1;
+    let contact = [3.0 * b * c - 2.0 * a * d, 9.0 * b * b - 6.0 * a * c, 3.0 * a * b, 2.0 * a * a];
+    let roots = solve_cubic(contact[0], contact[1], contact[2], contact[3]);
+    for alpha in roots.iter().copied() {
+        if let Some(start) = expansion([a, b, c, d, e], k0, alpha) {
+            starts.push(start);
         }
     }
     starts.starts[..starts.count].sort_by(|a, b| a.e6.abs().total_cmp(&b.e6.abs()));
+    // Where two of three roots have met and become complex, p ± iy with a small y, there is still a local
+    // minimum near p, though nothing is in contact there.
+    if let [root] = roots[..] {
+        let extrema = solve_quadratic(contact[1], 2.0 * contact[2], 3.0 * contact[3]);
+        let value = |x: f64| contact[0] + x * (contact[1] + x * (contact[2] + x * contact[3]));
+        // The polynomial is contact[3]·(x − root)·((x − p)² + y²).
+        let y2 = |x: f64| value(x) / (contact[3] * (x - root));
+        let met = extrema.into_iter().min_by(|x, y| y2(*x).abs().total_cmp(&y2(*y).abs()));
+        if let Some(p) = met
+            && y2(p).abs() < NEARLY_REAL
+            && let Some(start) = expansion([a, b, c, d, e], k0, p)
+        {
+            starts.push(Start { e6: 0.0, ..start });
+        }
+    }
     starts
+}
+
+/// y² up to which complex roots are tried: half a unit of α in y, half of what real roots differ by where there are three
+/// good ones. Larger values try more in vain; smaller ones lose local minima of long pieces.
+const NEARLY_REAL: f64 = 0.25;
+
+/// α to a start, if it makes sense.
+fn expansion([a, b, c, d, e]: [f64; 5], k0: f64, alpha: f64) -> Option<Start> {
+    // Beyond, the expansion means nothing (and NaN, of a curve that is nearly straight).
+    if !(alpha.abs() <= 2.0) {
+        return None;
+    }
+    // Two forms of the same; the better conditioned one.
+    let (first, second) = (2.0 * a, 2.0 * a * alpha + 3.0 * b);
+    let beta = if first.abs() >= second.abs() {
+        -(a * alpha * alpha + 3.0 * b * alpha + c) / first
+    } else {
+        -(3.0 * b * alpha * alpha + 4.0 * c * alpha + d) / second
+    };
+    let e6 = a * beta * beta
+        + b * (alpha * alpha * alpha + 6.0 * alpha * beta)
+        + c * (6.0 * alpha * alpha + 4.0 * beta)
+        + 5.0 * d * alpha
+        + e;
+    // k₀²/6 turns the abscissa into arc length.
+    let quadratic = beta + k0 * k0 / 6.0;
+    let cubic = 2.0 * alpha * alpha - quadratic;
+    let (from, to) = (-1.0 - alpha - cubic, 1.0 - alpha + cubic);
+    let width = (to - from) / 3.0;
+    let arm = |t: f64| width * (1.0 + 2.0 * alpha * t + 3.0 * quadratic * t * t);
+    let arms = [arm(from), arm(to)];
+    let sane = e6.is_finite() && arms.iter().all(|arm| *arm > 0.0 && *arm < 2.0);
+    sane.then_some(Start { arms, e6 })
 }
 
 /// Newton's method for the arms at which the cubic's end curvatures are those given:

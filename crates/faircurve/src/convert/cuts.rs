@@ -16,7 +16,8 @@ pub(super) fn greedy(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
     let mut here = from;
     let mut guess = first_guess(fitter, from, to);
     while here < to {
-        let cubic = farthest(fitter, here, to, guess, shortest);
+        let predicted = predict(fitter, here, to, guess);
+        let cubic = farthest(fitter, here, to, predicted, shortest);
         let length = cubic.to - here;
         // What the next would reach if the curve went on like this.
         let factor = (AIM * fitter.accuracy / cubic.error).powf(1.0 / 6.0);
@@ -96,46 +97,79 @@ fn longest_estimate(
     shortest: f64,
     search: &mut Search,
 ) -> Candidate {
-    const MOST_TRIALS: usize = 24;
+    /// On smooth stretches two or three are enough; the rest is for those where the error jumps.
+    const MOST_TRIALS: usize = 16;
+    /// How far the ends of what is known may be apart.
+    const RESOLUTION: f64 = 1.003;
     let rest = to - from;
     let target = AIM * fitter.accuracy;
     let mut length = guess.min(rest);
+    // The trial before: length and error.
+    let mut last: Option<(f64, f64)> = None;
     for _ in 0..MOST_TRIALS {
         let candidate = fitter.try_piece(from, end(from, length, to));
-        let tried = candidate.piece.to - from;
-        let fits = candidate.error <= fitter.accuracy * 0.998;
-        if fits {
-            let is_close = candidate.error >= CLOSE * fitter.accuracy;
+        let (tried, error) = (candidate.piece.to - from, candidate.error);
+        if error <= fitter.accuracy * 0.998 {
             search.fits = Some(candidate);
-            if is_close || candidate.piece.to >= to {
+            if error >= CLOSE * fitter.accuracy || candidate.piece.to >= to {
                 return candidate;
             }
         } else {
-            search.fails = tried;
-            search.fails_by = candidate.error;
+            (search.fails, search.fails_by) = (tried, error);
             if tried <= shortest {
                 return candidate;
             }
         }
-        let factor = (target / candidate.error).powf(1.0 / 6.0);
-        let factor = if factor.is_nan() { 0.5 } else { factor.clamp(0.3, 3.0) };
-        let next = match (&search.fits, search.fails.is_finite()) {
-            (None, _) => (tried * factor).max(shortest),
-            (Some(_), false) => (tried * factor).min(rest),
-            (Some(low), true) => {
+        length = match &search.fits {
+            Some(low) if search.fails.is_finite() => {
                 let (low_length, low_error) = (low.piece.to - from, low.error);
-                if search.fails <= low_length * 1.002 {
+                if search.fails <= low_length * RESOLUTION {
                     return *low;
                 }
                 // Between the two, by the slope that they show, but not too near to either.
                 let span = (search.fails / low_length).ln();
-                let slope = (search.fails_by / low_error).ln() / span;
-                let along = (target / low_error).ln() / slope / span;
+                let along = (target / low_error).ln() / (search.fails_by / low_error).ln();
                 let along = if along.is_finite() { along.clamp(0.1, 0.9) } else { 0.5 };
                 low_length * (along * span).exp()
             }
+            fits => {
+                // The sixth order, until two trials show the slope.
+                let slope = last.map_or(6.0, |(length, before)| {
+                    let slope = (error / before).ln() / (tried / length).ln();
+                    if slope.is_nan() { 6.0 } else { slope.clamp(3.0, 12.0) }
+                });
+                let factor = (target / error).powf(1.0 / slope);
+                if fits.is_some() {
+                    (tried * factor.clamp(1.02, 3.0)).min(rest)
+                } else {
+                    let factor = if factor.is_nan() { 0.5 } else { factor.clamp(0.3, 0.98) };
+                    (tried * factor).max(shortest)
+                }
+            }
         };
-        length = next;
+        last = Some((tried, error));
     }
     search.fits.unwrap_or_else(|| fitter.try_piece(from, end(from, shortest.min(rest), to)))
+}
+
+/// The length that the sixth-order theory gives a cubic from `from`; `guess` where it has nothing
+/// to say.
+fn predict(fitter: &Fitter<'_>, from: f64, to: f64, guess: f64) -> f64 {
+    /// The theory itself is good to a percent or two, where it is good at all.
+    const CLOSE: f64 = 0.03;
+    let mut length = guess.min(to - from);
+    for _ in 0..4 {
+        let Some(error) = fitter.law(from, from + length) else { return length };
+        let ratio = AIM * fitter.accuracy / error;
+        let factor = ratio.powf(1.0 / 6.5);
+        if !factor.is_finite() {
+            return length;
+        }
+        let next = (length * factor.clamp(0.4, 2.5)).min(to - from);
+        if (ratio - 1.0).abs() < CLOSE || next == length {
+            return next;
+        }
+        length = next;
+    }
+    length
 }

@@ -3,6 +3,7 @@
 use kurbo::CubicBez;
 
 use super::certificate::distance_bound;
+use super::contact;
 use super::minimax::{Fit as Arms, minimax};
 use super::options::{Fit, Metric};
 use super::piece::{Piece, Stretch};
@@ -44,7 +45,16 @@ impl Fitter<'_> {
     pub(super) fn try_piece(&self, from: f64, to: f64) -> Candidate {
         let piece = self.stretch.piece(from, to);
         let arms = minimax(&piece);
+        #[cfg(test)]
+        println!("  try {from:.3} {to:.3} {:.4}", arms.error * piece.half / self.accuracy);
         Candidate { piece, arms, error: arms.error * piece.half }
+    }
+
+    /// What the sixth-order theory says of the error of the best cubic for a piece; `None` where the
+    /// piece isn't one spiral's, or the theory says nothing.
+    pub(super) fn law(&self, from: f64, to: f64) -> Option<f64> {
+        let e6 = contact::expansions(self.stretch.curvature_about_middle(from, to)?).least()?;
+        Some(contact::MINIMAX_ERROR * e6 * (to - from) / 2.0)
     }
 
     /// The candidate with its bound.
@@ -52,6 +62,8 @@ impl Fitter<'_> {
         let Candidate { piece, arms, error } = candidate;
         let lengths = arms.arms.map(|arm| arm * piece.half);
         let mut bound = distance_bound(self.stretch, piece, arms);
+        #[cfg(test)]
+        println!("  bound {:.4} est {:.4}", bound / self.accuracy, error / self.accuracy);
         if !bound.is_finite() {
             bound = farthest_apart(piece, lengths);
         }

@@ -5,6 +5,8 @@
 //! for the arms and the deviation, and an exchange finds the places (Remez). A few rounds of this
 //! from the cubics in sixth-order [contact](super::contact).
 
+use std::sync::LazyLock;
+
 use num_complex::Complex64;
 
 use super::contact::{MINIMAX_Q, Start, contact_starts, cross, dot};
@@ -63,7 +65,7 @@ pub(super) struct Fit {
     pub(super) params: [f64; NODES],
     /// Deviation along the normal at each node, in units of the half length.
     pub(super) deviation: [f64; NODES],
-    /// The largest of them: an estimate, not a bound. Infinite where the cubic doesn't run along
+    /// The largest between them: an estimate, not a bound. Infinite where the cubic doesn't run along
     /// the piece.
     pub(super) error: f64,
 }
@@ -180,7 +182,7 @@ pub(super) fn measure(piece: &Piece, arms: [f64; 2], mut params: [f64; NODES]) -
         params[i] = t;
         deviation[i] = i0 - place.im + (i1 + (i2 + i3 * t) * t) * t;
     }
-    let mut error = deviation.iter().fold(0.0f64, |m, d| m.max(d.abs()));
+    let mut error = largest(&on_grid(&deviation));
     // Where the cubic stands still or runs backwards beside the piece, it isn't a fit; nor is NaN.
     if !(slowest > 0.0) || deviation.iter().any(|d| d.is_nan()) {
         error = f64::INFINITY;
@@ -189,11 +191,122 @@ pub(super) fn measure(piece: &Piece, arms: [f64; 2], mut params: [f64; NODES]) -
     Fit { arms, params, deviation, error }
 }
 
+/// Places at which deviations are known: ϑ = π/32 … 31π/32, x = −cos ϑ. The best cubic's lobes are about 5 wide.
+const GRID: usize = 31;
+
+/// Values on the grid from those at the nodes: a deviation, or what an arm adds to it, is zero twice at both ends, and
+/// (1 − x²)² times the polynomial of degree 6 through the rest. Even and odd parts apart: the weights of the parts at
+/// 0, 0.34, 0.6355, 0.9 for x = cos ϑ ≥ 0.
+static WEIGHTS: LazyLock<[([f64; 4], [f64; 3]); GRID / 2 + 1]> = LazyLock::new(|| {
+    let nodes = [0.0, PLACES[4], PLACES[5], PLACES[6]];
+    let end = |x: f64| (1.0 - x * x) * (1.0 - x * x);
+    std::array::from_fn(|g| {
+        let x = (std::f64::consts::PI * (g + 1) as f64 / (GRID + 1) as f64).cos();
+        let x = if g == GRID / 2 { 0.0 } else { x };
+        let lagrange = |nodes: &[f64], i: usize| -> f64 {
+            let others = nodes.iter().enumerate().filter(|(j, _)| *j != i);
+            others.map(|(_, m)| (x * x - m * m) / (nodes[i] * nodes[i] - m * m)).product()
+        };
+        let even = std::array::from_fn(|i| lagrange(&nodes, i) * end(x) / end(nodes[i]));
+        let odd = std::array::from_fn(|i| {
+            lagrange(&nodes[1..], i) * x / nodes[i + 1] * end(x) / end(nodes[i + 1])
+        });
+        (even, odd)
+    })
+});
+
+fn on_grid(nodes: &[f64; NODES]) -> [f64; GRID] {
+    let mut even = [nodes[3], 0.0, 0.0, 0.0];
+    let mut odd = [0.0; 3];
+    for i in 0..3 {
+        even[i + 1] = 0.5 * (nodes[4 + i] + nodes[2 - i]);
+        odd[i] = 0.5 * (nodes[4 + i] - nodes[2 - i]);
+    }
+    let mut values = [0.0; GRID];
+    for (g, (for_even, for_odd)) in WEIGHTS.iter().enumerate() {
+        let e = (for_even[0] * even[0] + for_even[1] * even[1])
+            + (for_even[2] * even[2] + for_even[3] * even[3]);
+        let o = for_odd[0] * odd[0] + for_odd[1] * odd[1] + for_odd[2] * odd[2];
+        values[GRID - 1 - g] = e + o;
+        values[g] = e - o;
+    }
+    values
+}
+
+/// The largest absolute value on the grid, between its points by a parabola.
+fn largest(values: &[f64; GRID]) -> f64 {
+    let mut top = 0;
+    for g in 1..GRID {
+        if values[g].abs() > values[top].abs() {
+            top = g;
+        }
+    }
+    let (offset, _) = vertex(values, top);
+    parabola(values, top, offset).abs().max(values[top].abs())
+}
+
+/// Where the parabola through three neighbours has its extremum, in steps from the middle one.
+fn vertex(values: &[f64; GRID], at: usize) -> (f64, f64) {
+    if at == 0 || at == GRID - 1 {
+        return (0.0, 0.0);
+    }
+    let (slope, bend) = slopes(values, at);
+    if bend == 0.0 { (0.0, 0.0) } else { ((-slope / bend).clamp(-0.5, 0.5), bend) }
+}
+
+fn slopes(values: &[f64; GRID], at: usize) -> (f64, f64) {
+    let (before, after) = (values[at - 1], values[at + 1]);
+    ((after - before) / 2.0, after - 2.0 * values[at] + before)
+}
+
+fn parabola(values: &[f64; GRID], at: usize, offset: f64) -> f64 {
+    if at == 0 || at == GRID - 1 {
+        return values[at];
+    }
+    let (slope, bend) = slopes(values, at);
+    values[at] + offset * (slope + offset * bend / 2.0)
+}
+
+/// Three equations n + a·sₐ + b·s_b = ±level, the signs those of the combination in which the arms cancel.
+struct Reference {
+    level: f64,
+    combination: [f64; 3],
+}
+
+impl Reference {
+    fn new(n: [f64; 3], by_a: [f64; 3], by_b: [f64; 3]) -> Self {
+        let pair = |i: usize, j: usize| by_a[i] * by_b[j] - by_a[j] * by_b[i];
+        let combination = [pair(1, 2), pair(2, 0), pair(0, 1)];
+        let sum: f64 = combination.iter().map(|c| c.abs()).sum();
+        let product: f64 = combination.iter().zip(n).map(|(c, n)| c * n).sum();
+        Reference { level: if sum > 0.0 { product / sum } else { 0.0 }, combination }
+    }
+
+    /// The arms, from the two equations that know them best.
+    fn step(&self, n: [f64; 3], by_a: [f64; 3], by_b: [f64; 3]) -> Option<[f64; 2]> {
+        let mut skipped = 0;
+        for i in 1..3 {
+            if self.combination[i].abs() > self.combination[skipped].abs() {
+                skipped = i;
+            }
+        }
+        let determinant = self.combination[skipped];
+        let (i, j) = ((skipped + 1) % 3, (skipped + 2) % 3);
+        let right_i = self.level * self.combination[i].signum() - n[i];
+        let right_j = self.level * self.combination[j].signum() - n[j];
+        let step = [
+            (right_i * by_b[j] - right_j * by_b[i]) / determinant,
+            (by_a[i] * right_j - by_a[j] * right_i) / determinant,
+        ];
+        (step[0].is_finite() && step[1].is_finite()).then_some(step)
+    }
+}
+
 /// The change of the arms that makes the largest deviation least, by the linear model, and what is
 /// then left.
 fn exchange(piece: &Piece, fit: &Fit) -> Option<([f64; 2], f64)> {
-    /// Never needed in full: each exchange raises the level, and there are 35 references.
-    const MOST_EXCHANGES: usize = 8;
+    /// Each exchange raises the level; on ordinary pieces two or three are enough.
+    const MOST_EXCHANGES: usize = 12;
     let [t0, t1] = piece.end_tangents;
     let mut by_a = [0.0; NODES];
     let mut by_b = [0.0; NODES];
@@ -203,62 +316,54 @@ fn exchange(piece: &Piece, fit: &Fit) -> Option<([f64; 2], f64)> {
         by_a[i] = 3.0 * u * u * t * cross(tangent, t0);
         by_b[i] = -3.0 * u * t * t * cross(tangent, t1);
     }
-    // Three places decide: there is one combination of the three equations in which the arms cancel.
-    let level = |[i, j, k]: [usize; 3]| {
-        let combination = [
-            by_a[j] * by_b[k] - by_a[k] * by_b[j],
-            by_a[k] * by_b[i] - by_a[i] * by_b[k],
-            by_a[i] * by_b[j] - by_a[j] * by_b[i],
-        ];
-        let sum: f64 = combination.iter().map(|c| c.abs()).sum();
-        let deviation = combination[0] * fit.deviation[i]
-            + combination[1] * fit.deviation[j]
-            + combination[2] * fit.deviation[k];
-        (if sum > 0.0 { deviation / sum } else { 0.0 }, combination)
+    let (n, by_a, by_b) = (on_grid(&fit.deviation), on_grid(&by_a), on_grid(&by_b));
+    let at = |reference: [usize; 3]| {
+        (reference.map(|g| n[g]), reference.map(|g| by_a[g]), reference.map(|g| by_b[g]))
     };
-    let mut reference = [1, 3, 5];
-    let (mut least, mut combination) = level(reference);
-    let mut step = [0.0; 2];
+    let solve = |reference: [usize; 3]| {
+        let (n, by_a, by_b) = at(reference);
+        Reference::new(n, by_a, by_b)
+    };
+    // The extrema of the leading term.
+    let mut reference = [8, 15, 22];
+    let mut solved = solve(reference);
+    let mut left = [0.0; GRID];
     for _ in 0..MOST_EXCHANGES {
-        // The arms from the two of the three equations that know them best.
-        let (skipped, determinant) = (0..3)
-            .map(|skip| (skip, combination[skip]))
-            .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
-        if !(determinant.abs() > f64::MIN_POSITIVE) {
-            return None;
+        let (rn, ra, rb) = at(reference);
+        let step = solved.step(rn, ra, rb)?;
+        let mut worst = 0;
+        for g in 0..GRID {
+            left[g] = n[g] + by_a[g] * step[0] + by_b[g] * step[1];
+            if left[g].abs() > left[worst].abs() {
+                worst = g;
+            }
         }
-        let (first, second) = ((skipped + 1) % 3, (skipped + 2) % 3);
-        let (i, j) = (reference[first], reference[second]);
-        let right = [
-            least * combination[first].signum() - fit.deviation[i],
-            least * combination[second].signum() - fit.deviation[j],
-        ];
-        step = [
-            (right[0] * by_b[j] - right[1] * by_b[i]) / determinant,
-            (by_a[i] * right[1] - by_a[j] * right[0]) / determinant,
-        ];
-        let left =
-            |i: usize| (fit.deviation[i] + by_a[i] * step[0] + by_b[i] * step[1]).abs();
-        let worst = (0..NODES).max_by(|a, b| left(*a).total_cmp(&left(*b)))?;
-        if !(left(worst) > least.abs() * 1.000_001) {
+        if !(left[worst].abs() > solved.level.abs() * 1.000_001) {
             break;
         }
         // Of four places, the three with the highest level are the answer.
-        let mut improved = (reference, least, combination);
+        let mut improved = None;
+        let mut level = solved.level.abs();
         for out in 0..3 {
             let mut candidate = reference;
             candidate[out] = worst;
-            let (level, combination) = level(candidate);
-            if level.abs() > improved.1.abs() {
-                improved = (candidate, level, combination);
+            let tried = solve(candidate);
+            if tried.level.abs() > level {
+                level = tried.level.abs();
+                improved = Some((candidate, tried));
             }
         }
-        if improved.0 == reference {
-            break;
-        }
-        (reference, least, combination) = improved;
+        let Some(improved) = improved else { break };
+        (reference, solved) = improved;
     }
-    step.iter().all(|step| step.is_finite()).then_some((step, least.abs()))
+    // Once more at the true extrema, between the points of the grid.
+    let offsets = reference.map(|g| vertex(&left, g).0);
+    let between = |values: &[f64; GRID]| {
+        std::array::from_fn(|i| parabola(values, reference[i], offsets[i]))
+    };
+    let (rn, ra, rb) = (between(&n), between(&by_a), between(&by_b));
+    let solved = Reference::new(rn, ra, rb);
+    Some((solved.step(rn, ra, rb)?, solved.level.abs()))
 }
 
 /// The parameter of the cubic's point whose projection onto the tangent at `place` is `place`; from a

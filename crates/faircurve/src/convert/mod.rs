@@ -109,3 +109,60 @@ fn append_stretch(result: &mut Conversion, segments: &[Segment], options: &Optio
         result.cubics += 1;
     }
 }
+
+#[cfg(test)]
+mod explore {
+    use super::*;
+    use crate::segment::PolynomialSpiral;
+    use kurbo::{Point, Vec2};
+
+    fn of(c: [f64; 4]) -> Segment {
+        let m = 0.5;
+        let k = [
+            c[0] + m * (c[1] + m * (c[2] + m * c[3])),
+            c[1] + m * (2.0 * c[2] + m * 3.0 * c[3]),
+            2.0 * c[2] + 6.0 * m * c[3],
+            6.0 * c[3],
+        ];
+        let spiral = PolynomialSpiral::new(k);
+        let end = Point::ZERO + Vec2::from_angle(0.3) * 1000.0 * spiral.chord().length;
+        Segment::spiral(Point::ZERO, end, spiral)
+    }
+
+    #[test]
+    #[ignore]
+    fn profile() {
+        for (c, from) in [([-6.0, 12.0, 0.0, 0.0], 0.0), ([1.0, 8.0, -20.0, 16.0], 0.0), ([0.0, 2.4, 0.0, 0.0], 0.0),([0.0, 28.27, 0.0, 0.0], 0.0)] {
+            let segment = of(c);
+            let all = [segment];
+            let stretch = Stretch::new(&all);
+            let fitter = Fitter { stretch: &stretch, metric: Metric::Distance, fit: Fit::Optimal, accuracy: 0.1 };
+            println!("{c:?}");
+            let mut last = 0.0f64;
+            for i in 1..=50 {
+                let to = from + (1000.0 - from) * f64::from(i) / 50.0;
+                let candidate = fitter.try_piece(from, to);
+                let bound = fitter.certify(&candidate).bound;
+                let slope = (candidate.error / last).ln() / (f64::from(i) / f64::from(i - 1)).ln();
+                last = candidate.error;
+                let starts = contact::expansions(candidate.piece.series.unwrap().kappa);
+                let e6: Vec<f64> = starts.as_slice().iter().map(|s| s.e6 * candidate.piece.half * 0.1059).collect();
+                println!("{to:6.0} {:10.3e} bound/est {:.4} slope {slope:5.1} arms {:.3?} e6 {e6:.4?}", candidate.error, bound / candidate.error, candidate.arms.arms);
+            }
+        }
+    }
+
+    #[test]
+    #[ignore]
+    fn trace() {
+        for (c, acc) in [([0.0, 2.4, 0.0, 0.0], 1e-5), ([-6.0, 12.0, 0.0, 0.0], 1e-5), ([1.0, 8.0, -20.0, 16.0],1e-5)] {
+            let all = [of(c)];
+            let stretch = Stretch::new(&all);
+            let fitter = Fitter { stretch: &stretch, metric: Metric::Distance, fit: Fit::Optimal, accuracy: acc };
+            println!("{c:?}");
+            for cubic in cuts::greedy(&fitter, 0.0, stretch.length()) {
+                println!("  == {:.3} {:.3} err {:.4}", cubic.from, cubic.to, cubic.error / acc);
+            }
+        }
+    }
+}

@@ -116,6 +116,18 @@ impl<'a> Stretch<'a> {
         self.sampled(from, to, half)
     }
 
+    /// Curvature by powers of x, half the arc length the unit, for a piece of one spiral.
+    pub(super) fn curvature_about_middle(&self, from: f64, to: f64) -> Option<[f64; 4]> {
+        let span = self.span(from, to);
+        let (segment, start) = (&self.segments[*span.start()], self.start_of(*span.start()));
+        let Shape::Spiral(spiral) = segment.shape() else { return None };
+        if span.start() != span.end() {
+            return None;
+        }
+        let middle = ((from + to) / 2.0 - start) / segment.length() - 0.5;
+        Some(Series::curvature_of(spiral.k, middle, (to - from) / segment.length()))
+    }
+
     /// A piece known by what its segments answer.
     fn sampled(&self, from: f64, to: f64, half: f64) -> Piece {
         let origin = self.joint(from).point;

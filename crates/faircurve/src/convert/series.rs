@@ -91,9 +91,14 @@ pub(super) struct Series {
 impl Series {
     /// The piece of the spiral `k` (eq. 8.1) of the given middle and width, both for arc length 1.
     pub(super) fn new(k: [f64; 4], middle: f64, width: f64) -> Self {
+        Series::of_curvature(Series::curvature_of(k, middle, width))
+    }
+
+    /// Curvature of the same piece by powers of x.
+    pub(super) fn curvature_of(k: [f64; 4], middle: f64, width: f64) -> [f64; 4] {
         let local = sub_parameters(k, middle, width);
         // From arc length 1 to half length 1, and from derivatives to coefficients.
-        Series::of_curvature([local[0] / 2.0, local[1] / 4.0, local[2] / 16.0, local[3] / 96.0])
+        [local[0] / 2.0, local[1] / 4.0, local[2] / 16.0, local[3] / 96.0]
     }
 
     /// The piece whose curvature has these coefficients, in units of its half length.
