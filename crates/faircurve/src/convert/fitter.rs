@@ -4,9 +4,11 @@ use kurbo::CubicBez;
 
 use super::certificate::distance_bound;
 use super::contact;
-use super::minimax::{Fit as Arms, minimax};
+use super::metric::angle_error;
+use super::minimax::{Fit as Arms, LocalCubic, first_params, measure, minimax};
 use super::options::{Fit, Metric};
 use super::piece::{Piece, Stretch};
+use super::single;
 
 /// Fits cubics to pieces of one stretch.
 #[derive(Debug)]
@@ -44,15 +46,43 @@ impl Fitter<'_> {
     /// The best cubic for a piece.
     pub(super) fn try_piece(&self, from: f64, to: f64) -> Candidate {
         let piece = self.stretch.piece(from, to);
-        let arms = minimax(&piece);
-        #[cfg(test)]
-        println!("  try {from:.3} {to:.3} {:.4}", arms.error * piece.half / self.accuracy);
-        Candidate { piece, arms, error: arms.error * piece.half }
+        let measured = |arms: [f64; 2]| measure(&piece, arms, first_params(arms));
+        let arms = match (self.fit, self.metric) {
+            (Fit::ArcThird, _) => measured(single::ARC_THIRD),
+            (Fit::EqualArms, _) => measured(single::equal_arms(&piece)),
+            (Fit::EndCurvature, _) => {
+                single::with_end_curvatures(&piece).unwrap_or_else(|| minimax(&piece))
+            }
+            (Fit::Optimal, Metric::Distance) => minimax(&piece),
+            (Fit::Optimal, metric) => {
+                measured(single::least_angle_error(self.stretch, &piece, metric))
+            }
+        };
+        let error = match self.metric {
+            Metric::Distance => arms.error * piece.half,
+            metric => {
+                let cubic = LocalCubic::with_arms(&piece, arms.arms);
+                angle_error(self.stretch, &piece, &cubic, metric).unwrap_or(f64::INFINITY)
+            }
+        };
+        Candidate { piece, arms, error }
+    }
+
+    /// The power of its length with which the error of a piece grows, on short pieces.
+    pub(super) fn order(&self) -> f64 {
+        let order = match self.fit {
+            Fit::Optimal | Fit::EndCurvature => 6.0,
+            Fit::ArcThird | Fit::EqualArms => 4.0,
+        };
+        if self.metric == Metric::SquaredAngle { order - 0.5 } else { order }
     }
 
     /// What the sixth-order theory says of the error of the best cubic for a piece; `None` where the
     /// piece isn't one spiral's, or the theory says nothing.
     pub(super) fn law(&self, from: f64, to: f64) -> Option<f64> {
+        if self.metric != Metric::Distance || self.fit != Fit::Optimal {
+            return None;
+        }
         let e6 = contact::expansions(self.stretch.curvature_about_middle(from, to)?).least()?;
         Some(contact::MINIMAX_ERROR * e6 * (to - from) / 2.0)
     }
@@ -62,8 +92,6 @@ impl Fitter<'_> {
         let Candidate { piece, arms, error } = candidate;
         let lengths = arms.arms.map(|arm| arm * piece.half);
         let mut bound = distance_bound(self.stretch, piece, arms);
-        #[cfg(test)]
-        println!("  bound {:.4} est {:.4}", bound / self.accuracy, error / self.accuracy);
         if !bound.is_finite() {
             bound = farthest_apart(piece, lengths);
         }

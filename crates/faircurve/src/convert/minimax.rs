@@ -149,7 +149,7 @@ pub(super) fn refine(piece: &Piece, start: Start, rounds: usize) -> Fit {
 }
 
 /// The cubic of Hermite's interpolation for t(x), whose slopes at the ends are 1/(3·arm).
-fn first_params([a, b]: [f64; 2]) -> [f64; NODES] {
+pub(super) fn first_params([a, b]: [f64; 2]) -> [f64; NODES] {
     let (slope0, slope1) = (2.0 / (3.0 * a), 2.0 / (3.0 * b));
     PLACES.map(|x| {
         let u = 0.5 + 0.5 * x;

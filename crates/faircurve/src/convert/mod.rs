@@ -4,10 +4,14 @@ mod certificate;
 mod contact;
 mod cuts;
 mod fitter;
+mod metric;
 mod minimax;
 mod options;
 mod piece;
 mod series;
+mod single;
+#[cfg(test)]
+mod tests;
 
 use kurbo::BezPath;
 
@@ -58,10 +62,12 @@ pub fn to_bezpath(curve: &Curve, accuracy: f64) -> BezPath {
 /// The curve as straight lines and cubic Béziers, as the options say.
 pub fn convert(curve: &Curve, options: &Options) -> Conversion {
     let mut result = Conversion::default();
-    let Some(start) = curve.start() else {
+    let Some(first) = curve.start() else {
         return result;
     };
-    result.path.move_to(start);
+    result.path.move_to(first);
+    // Arc length so far.
+    let mut start = 0.0;
     let segments = curve.segments();
     let mut i = 0;
     while i < segments.len() {
@@ -70,6 +76,7 @@ pub fn convert(curve: &Curve, options: &Options) -> Conversion {
                 result.path.line_to(segments[i].end());
                 result.lines += 1;
             }
+            start += segments[i].length();
             i += 1;
             continue;
         }
@@ -79,7 +86,8 @@ pub fn convert(curve: &Curve, options: &Options) -> Conversion {
                 end += 1;
             }
         }
-        append_stretch(&mut result, &segments[i..end], options);
+        append_stretch(&mut result, &segments[i..end], start, options);
+        start += segments[i..end].iter().map(Segment::length).sum::<f64>();
         i = end;
     }
     if curve.is_closed() {
@@ -93,16 +101,18 @@ fn is_smooth(before: &Segment, after: &Segment) -> bool {
     !after.is_line() && turn.sin().abs() < 1e-9 && turn.cos() > 0.0
 }
 
-fn append_stretch(result: &mut Conversion, segments: &[Segment], options: &Options) {
+/// `start`: the arc length of the curve at which the stretch starts.
+fn append_stretch(result: &mut Conversion, segments: &[Segment], start: f64, options: &Options) {
     const FINEST: f64 = 1e-12;
     let stretch = Stretch::new(segments);
     let finest = FINEST * stretch.length();
     let accuracy = if options.accuracy > finest { options.accuracy } else { finest };
     let fitter =
         Fitter { stretch: &stretch, metric: options.metric, fit: options.fit, accuracy };
-    let cubics = cuts::greedy(&fitter, 0.0, stretch.length());
-    for cubic in &cubics {
-        let placed = fitter.place(cubic);
+    let places = stretch_places(&stretch, start, options);
+    let between = places.windows(2).flat_map(|pair| cuts::cut(&fitter, options.cuts, pair[0], pair[1]));
+    for cubic in between {
+        let placed = fitter.place(&cubic);
         result.path.curve_to(placed.p1, placed.p2, placed.p3);
         result.bound = result.bound.max(cubic.bound);
         result.error = result.error.max(cubic.error);
@@ -110,59 +120,26 @@ fn append_stretch(result: &mut Conversion, segments: &[Segment], options: &Optio
     }
 }
 
-#[cfg(test)]
-mod explore {
-    use super::*;
-    use crate::segment::PolynomialSpiral;
-    use kurbo::{Point, Vec2};
 
-    fn of(c: [f64; 4]) -> Segment {
-        let m = 0.5;
-        let k = [
-            c[0] + m * (c[1] + m * (c[2] + m * c[3])),
-            c[1] + m * (2.0 * c[2] + m * 3.0 * c[3]),
-            2.0 * c[2] + 6.0 * m * c[3],
-            6.0 * c[3],
-        ];
-        let spiral = PolynomialSpiral::new(k);
-        let end = Point::ZERO + Vec2::from_angle(0.3) * 1000.0 * spiral.chord().length;
-        Segment::spiral(Point::ZERO, end, spiral)
-    }
-
-    #[test]
-    #[ignore]
-    fn profile() {
-        for (c, from) in [([-6.0, 12.0, 0.0, 0.0], 0.0), ([1.0, 8.0, -20.0, 16.0], 0.0), ([0.0, 2.4, 0.0, 0.0], 0.0),([0.0, 28.27, 0.0, 0.0], 0.0)] {
-            let segment = of(c);
-            let all = [segment];
-            let stretch = Stretch::new(&all);
-            let fitter = Fitter { stretch: &stretch, metric: Metric::Distance, fit: Fit::Optimal, accuracy: 0.1 };
-            println!("{c:?}");
-            let mut last = 0.0f64;
-            for i in 1..=50 {
-                let to = from + (1000.0 - from) * f64::from(i) / 50.0;
-                let candidate = fitter.try_piece(from, to);
-                let bound = fitter.certify(&candidate).bound;
-                let slope = (candidate.error / last).ln() / (f64::from(i) / f64::from(i - 1)).ln();
-                last = candidate.error;
-                let starts = contact::expansions(candidate.piece.series.unwrap().kappa);
-                let e6: Vec<f64> = starts.as_slice().iter().map(|s| s.e6 * candidate.piece.half * 0.1059).collect();
-                println!("{to:6.0} {:10.3e} bound/est {:.4} slope {slope:5.1} arms {:.3?} e6 {e6:.4?}", candidate.error, bound / candidate.error, candidate.arms.arms);
-            }
+/// Where a stretch must be cut, its ends included, ascending.
+fn stretch_places(stretch: &Stretch<'_>, start: f64, options: &Options) -> Vec<f64> {
+    /// Places nearer to each other than this part of the stretch are one.
+    const SAME: f64 = 1e-9;
+    let length = stretch.length();
+    let mut places = vec![0.0];
+    for (index, segment) in stretch.segments().iter().enumerate() {
+        let offset = stretch.start_of(index);
+        if options.at_extrema {
+            places.extend(segment.axis_extrema().into_iter().map(|s| offset + s));
+        }
+        if options.at_inflections {
+            places.extend(segment.inflections().into_iter().map(|s| offset + s));
         }
     }
-
-    #[test]
-    #[ignore]
-    fn trace() {
-        for (c, acc) in [([0.0, 2.4, 0.0, 0.0], 1e-5), ([-6.0, 12.0, 0.0, 0.0], 1e-5), ([1.0, 8.0, -20.0, 16.0],1e-5)] {
-            let all = [of(c)];
-            let stretch = Stretch::new(&all);
-            let fitter = Fitter { stretch: &stretch, metric: Metric::Distance, fit: Fit::Optimal, accuracy: acc };
-            println!("{c:?}");
-            for cubic in cuts::greedy(&fitter, 0.0, stretch.length()) {
-                println!("  == {:.3} {:.3} err {:.4}", cubic.from, cubic.to, cubic.error / acc);
-            }
-        }
-    }
+    places.extend(options.at.iter().map(|s| s - start));
+    places.retain(|s| *s == 0.0 || (*s > SAME * length && *s < (1.0 - SAME) * length));
+    places.sort_by(f64::total_cmp);
+    places.dedup_by(|b, a| *b - *a <= SAME * length);
+    places.push(length);
+    places
 }

@@ -3,6 +3,7 @@
 use kurbo::{Point, Vec2};
 use num_complex::Complex64;
 
+use crate::numeric::roots::monotone_root;
 use crate::numeric::trig::sin_cos;
 use crate::segment::{Segment, Shape};
 
@@ -159,6 +160,55 @@ impl<'a> Stretch<'a> {
             (piece.places[i], piece.tangents[i]) = at(from + half * (1.0 + x));
         }
         piece
+    }
+
+    /// How far the direction has turned since the start of a piece, at a fraction of its arc length.
+    pub(super) fn turn(&self, piece: &Piece, along: f64) -> f64 {
+        if let Some(series) = &piece.series {
+            return series.angle(2.0 * along - 1.0) - series.angle(-1.0);
+        }
+        let s = piece.from + along * (piece.to - piece.from);
+        let mut turned = 0.0;
+        for index in self.span(piece.from, piece.to) {
+            let (segment, start) = (&self.segments[index], self.start_of(index));
+            let from = (piece.from - start).max(0.0);
+            let to = (s - start).min(segment.length());
+            if to > from {
+                turned += segment.direction(to) - segment.direction(from);
+            }
+        }
+        turned
+    }
+
+    /// The place at which ∫|κ| ds from `from` is half of that to `to`.
+    pub(super) fn half_of_bend(&self, from: f64, to: f64) -> f64 {
+        // Between inflections |κ| integrates to a difference of directions.
+        let mut parts: Vec<(f64, f64, f64)> = Vec::new();
+        for index in self.span(from, to) {
+            let (segment, start) = (&self.segments[index], self.start_of(index));
+            let (a, b) = ((from - start).max(0.0), (to - start).min(segment.length()));
+            let mut places = vec![a];
+            places.extend(segment.inflections().into_iter().filter(|s| *s > a && *s < b));
+            places.push(b);
+            for pair in places.windows(2) {
+                let turn = segment.direction(pair[1]) - segment.direction(pair[0]);
+                parts.push((start + pair[0], start + pair[1], turn.abs()));
+            }
+        }
+        let half: f64 = parts.iter().map(|part| part.2).sum::<f64>() / 2.0;
+        let mut before = 0.0;
+        for (a, b, turn) in parts {
+            if before + turn >= half {
+                let (segment, local) = self.locate(a);
+                let wanted = half - before;
+                let missing = |s: f64| {
+                    (segment.direction(local + (s - a)) - segment.direction(local)).abs() - wanted
+                };
+                return monotone_root(missing, a, b).unwrap_or((from + to) / 2.0);
+            }
+            before += turn;
+        }
+        (from + to) / 2.0
     }
 
     /// The largest turn from end to end of what a piece passes through, at least that of its ends.
