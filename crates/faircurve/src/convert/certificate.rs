@@ -35,6 +35,8 @@
 //!
 //! **Rounding** isn't proved but allowed for: [`rounding`].
 
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
 use std::sync::LazyLock;
 
 use num_complex::Complex64;
@@ -358,6 +360,20 @@ fn grid_bound(series: &Series, e: &Polynomial) -> GridBound {
     GridBound { bound, is_sharp }
 }
 
+/// The bound that a piece of one segment would have if that answered only for the size of its curvature.
+#[cfg(test)]
+pub(super) fn bound_by_curvature_of(stretch: &Stretch<'_>, piece: &Piece, fit: &Fit) -> f64 {
+    let cubic = LocalCubic::with_arms(piece, fit.arms);
+    let part = Part {
+        segment: &stretch.segments()[0],
+        from: piece.from,
+        to: piece.to,
+        params: [0.0, 1.0],
+    };
+    let origin = stretch.joint(piece.from).point;
+    bound_by_curvature(&part, &cubic, origin, piece.half) * piece.half + rounding(stretch, piece)
+}
+
 /// A piece over several segments, or on one that isn't a spiral: each part by itself, the feet at the
 /// knots being shared.
 fn bound_over_segments(stretch: &Stretch<'_>, piece: &Piece, cubic: &LocalCubic) -> f64 {
@@ -443,9 +459,7 @@ fn bound_by_curvature(
         (t, (cubic.at(t) - point).norm())
     };
     let error = |t: f64, s: f64| (cubic.at(t) - in_frame(segment, s, origin, half).0).norm();
-    let mut stack = vec![(from, to, params, [error(params[0], from), error(params[1], to)])];
-    let (mut largest, mut bound, mut parts) = (0.0f64, 0.0f64, 1);
-    while let Some((from, to, [t0, t1], errors)) = stack.pop() {
+    let bounded = |from: f64, to: f64, [t0, t1]: [f64; 2], errors: [f64; 2]| {
         let h = (to - from) / half;
         let curvature = segment.largest_curvature(from, to) * half;
         let bend = cubic.acceleration(t0).norm().max(cubic.acceleration(t1).norm());
@@ -454,20 +468,55 @@ fn bound_by_curvature(
         // Beside a cusp curvature has no bound, but neither curve gets far from both ends.
         let fastest = cubic.fastest(t0, t1);
         let slack = smooth.min((h + fastest * width) / 2.0);
-        largest = largest.max(errors[0]).max(errors[1]);
-        let here = errors[0].max(errors[1]) + slack;
-        // Rounding: below 1e-14 nothing gets sharper.
-        let is_settled = here <= bound || slack <= SHARP * largest || slack < 1e-14;
-        if is_settled || parts >= MOST_PARTS || !(to - from > 0.0) {
-            // `max` would lose NaN.
-            bound = if here <= bound { bound } else { here };
-            continue;
+        Bounded { bound: errors[0].max(errors[1]) + slack, slack, from, to, params: [t0, t1], errors }
+    };
+    let errors = [error(params[0], from), error(params[1], to)];
+    let mut largest = errors[0].max(errors[1]);
+    // The part with the largest bound first: when that is sharp, it is the answer.
+    let mut heap = BinaryHeap::from([bounded(from, to, params, errors)]);
+    for parts in 1.. {
+        let Some(top) = heap.pop() else { break };
+        let Bounded { bound, slack, from, to, params: [t0, t1], errors } = top;
+        // Rounding: below 1e-14 nothing gets sharper. `!` so that NaN ends here, too.
+        if !(slack > SHARP * largest) || slack < 1e-14 || parts >= MOST_PARTS || bound.is_nan() {
+            return if bound.is_nan() { f64::INFINITY } else { bound };
         }
         let middle = (from + to) / 2.0;
         let (t, off) = at(middle, (t0 + t1) / 2.0, [t0, t1]);
-        parts += 1;
-        stack.push((from, middle, [t0, t], [errors[0], off]));
-        stack.push((middle, to, [t, t1], [off, errors[1]]));
+        largest = largest.max(off);
+        heap.push(bounded(from, middle, [t0, t], [errors[0], off]));
+        heap.push(bounded(middle, to, [t, t1], [off, errors[1]]));
     }
-    if bound.is_nan() { f64::INFINITY } else { bound }
+    f64::INFINITY
 }
+
+/// Part of the work of [`bound_by_curvature`], ordered by its bound.
+struct Bounded {
+    bound: f64,
+    /// What interpolation adds to it.
+    slack: f64,
+    from: f64,
+    to: f64,
+    params: [f64; 2],
+    errors: [f64; 2],
+}
+
+impl Ord for Bounded {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.bound.total_cmp(&other.bound)
+    }
+}
+
+impl PartialOrd for Bounded {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Bounded {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Bounded {}

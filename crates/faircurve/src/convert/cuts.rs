@@ -1,5 +1,7 @@
 //! Where a stretch is cut (thesis section 9.6).
 
+use kurbo::common::solve_itp;
+
 use crate::numeric::roots::monotone_root;
 
 use super::fitter::{Candidate, Cubic, Fitter};
@@ -63,21 +65,26 @@ fn equal_errors(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
     let lengths: Vec<f64> = cubics.iter().map(|cubic| cubic.to - cubic.from).collect();
     // The logarithm by which the last piece's error exceeds a target.
     let attempt = |target: f64| reach_equally(fitter, from, to, target, &lengths);
-    let (mut low, mut high) = (0.0, fitter.accuracy);
+    let (mut low, mut high) = (0.0f64, fitter.accuracy);
     let whole: f64 = cubics.len() as f64 - 1.0;
     let part = (cubics[cubics.len() - 1].error / fitter.accuracy).powf(1.0 / fitter.order());
     let mut target = fitter.accuracy * ((whole + part) / (whole + 1.0)).powf(fitter.order());
-    let mut best: Option<Vec<Candidate>> = None;
+    let (mut best, mut best_excess): (Option<Vec<Candidate>>, f64) = (None, f64::INFINITY);
     for _ in 0..MOST_ROUNDS {
-        let Some((pieces, excess)) = attempt(target) else { break };
+        let Some((pieces, excess)) = attempt(target) else {
+            // Fewer pieces would reach the end.
+            high = target;
+            target = 0.5 * (low.max(0.5 * target) + high);
+            continue;
+        };
         // The target lies between this one and the last piece's error.
         if excess > 0.0 {
             low = target;
         } else {
             high = target;
         }
-        if excess <= 0.0 {
-            best = Some(pieces);
+        if excess.abs() < best_excess {
+            (best_excess, best) = (excess.abs(), Some(pieces));
         }
         if excess.abs() < RESOLUTION || high - low <= RESOLUTION * high {
             break;
@@ -145,7 +152,15 @@ fn reach(
         let next_value = excess(next);
         (low, high) = (high, next);
         if (next_value > 0.0) != (value > 0.0) {
-            let length = monotone_root(excess, low.min(high), low.max(high))?;
+            // Both ends' values are known, in the order of the ends.
+            let (a, b) = (low.min(high), low.max(high));
+            let (fa, fb) = if low < high { (value, next_value) } else { (next_value, value) };
+            if !(fa < 0.0 && fb > 0.0) {
+                // The error falls with the length: of no use here.
+                return None;
+            }
+            let resolution = 1e-11 * b;
+            let length = solve_itp(excess, a, b, resolution, 1, 0.2 / (b - a), fa, fb);
             return Some(fitter.try_piece(from, from + length));
         }
         if next >= rest {

@@ -20,6 +20,9 @@ pub(super) struct Fitter<'a> {
     pub(super) accuracy: f64,
 }
 
+/// Pieces shorter than this part of a stretch that have no cubic with their end curvatures get the best one without.
+const SHORT: f64 = 1e-3;
+
 /// A cubic that may do.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
@@ -51,7 +54,9 @@ impl Fitter<'_> {
             (Fit::ArcThird, _) => measured(single::ARC_THIRD),
             (Fit::EqualArms, _) => measured(single::equal_arms(&piece)),
             (Fit::EndCurvature, _) => {
-                single::with_end_curvatures(&piece).unwrap_or_else(|| minimax(&piece))
+                let exists = single::with_end_curvatures(&piece);
+                let is_short = to - from < SHORT * self.stretch.length();
+                exists.unwrap_or_else(|| if is_short { minimax(&piece) } else { Arms::none() })
             }
             (Fit::Optimal, Metric::Distance) => minimax(&piece),
             (Fit::Optimal, metric) => {
@@ -72,7 +77,8 @@ impl Fitter<'_> {
     pub(super) fn order(&self) -> f64 {
         let order = match self.fit {
             Fit::Optimal | Fit::EndCurvature => 6.0,
-            Fit::ArcThird | Fit::EqualArms => 4.0,
+            Fit::EqualArms => 5.0,
+            Fit::ArcThird => 4.0,
         };
         if self.metric == Metric::SquaredAngle { order - 0.5 } else { order }
     }

@@ -70,6 +70,18 @@ pub(super) struct Fit {
     pub(super) error: f64,
 }
 
+impl Fit {
+    /// Where no cubic was found.
+    pub(super) fn none() -> Self {
+        Fit {
+            arms: [2.0 / 3.0; 2],
+            params: PLACES.map(|x| 0.5 + 0.5 * x),
+            deviation: [f64::INFINITY; NODES],
+            error: f64::INFINITY,
+        }
+    }
+}
+
 /// Rounds of the exchange for a start by contact, where one or two are enough, and for a cruder one.
 const CONTACT_ROUNDS: usize = 3;
 const CRUDE_ROUNDS: usize = 8;
@@ -106,12 +118,7 @@ pub(super) fn minimax(piece: &Piece) -> Fit {
         let thirds = Start { arms: [2.0 / 3.0; 2], e6: f64::INFINITY };
         consider(refine(piece, thirds, CRUDE_ROUNDS));
     }
-    best.unwrap_or(Fit {
-        arms: [2.0 / 3.0; 2],
-        params: PLACES.map(|x| 0.5 + 0.5 * x),
-        deviation: [f64::INFINITY; NODES],
-        error: f64::INFINITY,
-    })
+    best.unwrap_or(Fit::none())
 }
 
 /// Exchange rounds from one start; the best arms seen.
@@ -140,12 +147,7 @@ pub(super) fn refine(piece: &Piece, start: Start, rounds: usize) -> Fit {
             arms[i] += step[i].clamp(-most, most);
         }
     }
-    best.unwrap_or(Fit {
-        arms,
-        params,
-        deviation: [f64::INFINITY; NODES],
-        error: f64::INFINITY,
-    })
+    best.unwrap_or(Fit::none())
 }
 
 /// The cubic of Hermite's interpolation for t(x), whose slopes at the ends are 1/(3·arm).

@@ -27,11 +27,11 @@ pub enum Fit {
     Optimal,
     /// Arms of a third of the arc length (section 9.3). The error falls as n⁻⁴ only.
     ArcThird,
-    /// Equal arms at which the arc lengths agree (section 9.4). The error falls as n⁻⁴ only.
+    /// Equal arms at which the arc lengths agree (section 9.4). The error falls as n⁻⁵ only.
     EqualArms,
     /// Arms at which the end curvatures are those of the curve, too, so that the Béziers join with
-    /// continuous curvature where the curve does; about 1.45 times as many cubics. Where no such arms are found,
-    /// the optimal ones.
+    /// continuous curvature where the curve does; about 1.45 times as many cubics. Where even
+    /// a thousandth of a stretch has no such arms, the optimal ones.
     EndCurvature,
 }
 

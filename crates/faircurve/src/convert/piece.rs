@@ -103,7 +103,6 @@ impl<'a> Stretch<'a> {
 
     /// The piece between two places, `from` < `to`.
     pub(super) fn piece(&self, from: f64, to: f64) -> Piece {
-        let half = (to - from) / 2.0;
         let span = self.span(from, to);
         if span.start() == span.end() {
             let segment = &self.segments[*span.start()];
@@ -114,7 +113,7 @@ impl<'a> Stretch<'a> {
                 return Piece::of_series(from, to, series);
             }
         }
-        self.sampled(from, to, half)
+        self.sampled(from, to)
     }
 
     /// Curvature by powers of x, half the arc length the unit, for a piece of one spiral.
@@ -130,7 +129,8 @@ impl<'a> Stretch<'a> {
     }
 
     /// A piece known by what its segments answer.
-    fn sampled(&self, from: f64, to: f64, half: f64) -> Piece {
+    pub(super) fn sampled(&self, from: f64, to: f64) -> Piece {
+        let half = (to - from) / 2.0;
         let origin = self.joint(from).point;
         let at = |s: f64| {
             let joint = self.joint(s);

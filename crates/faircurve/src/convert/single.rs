@@ -121,8 +121,8 @@ fn error_of_ratio(stretch: &Stretch<'_>, piece: &Piece, metric: Metric, ratio: f
     angle_error(stretch, piece, &cubic, metric).unwrap_or(f64::INFINITY)
 }
 
-/// The minimum between three ratios, by golden sections and parabolas: to 1e-8 in the ratio, at which the error
-/// doesn't feel it.
+/// The minimum between three ratios, by golden sections and parabolas, to 1e-7 in the ratio; the error feels
+/// that only squared.
 fn minimum_near(
     stretch: &Stretch<'_>,
     piece: &Piece,
@@ -130,6 +130,7 @@ fn minimum_near(
     [mut low, mut middle, mut high]: [f64; 3],
 ) -> Minimum {
     const GOLDEN: f64 = 0.381_966_011_250_105;
+    const NEAR: f64 = 1e-7;
     let error = |ratio: f64| error_of_ratio(stretch, piece, metric, ratio);
     let mut least = error(middle);
     let (mut low_error, mut high_error) = (error(low), error(high));
@@ -143,8 +144,8 @@ fn minimum_near(
         let wider = if left > right { middle - GOLDEN * left } else { middle + GOLDEN * right };
         let is_usable = by_parabola > low && by_parabola < high && step % 3 < 2;
         let mut next = if is_usable { by_parabola } else { wider };
-        if (next - middle).abs() < 1e-9 {
-            next = middle + if left > right { -1e-9 } else { 1e-9 };
+        if (next - middle).abs() < NEAR / 4.0 {
+            next = middle + if left > right { -NEAR / 4.0 } else { NEAR / 4.0 };
         }
         let value = error(next);
         if value < least {
@@ -155,7 +156,7 @@ fn minimum_near(
         } else {
             (high, high_error) = (next, value);
         }
-        if high - low < 4e-9 {
+        if high - low < NEAR {
             break;
         }
     }

@@ -33,6 +33,7 @@ fn fitter<'a>(stretch: &'a Stretch<'a>, fit: Fit) -> Fitter<'a> {
     Fitter { stretch, metric: Metric::SquaredAngle, fit, accuracy: 1.0 }
 }
 
+/// The reference looks at ratios from about 0.2 to 0.8 only; there are more minima outside, and worse ones inside.
 #[test]
 fn single_fits_agree_with_the_reference() {
     for case in reference()["fits"].as_array().unwrap() {
@@ -50,9 +51,9 @@ fn single_fits_agree_with_the_reference() {
         let minima = case["minima"].as_array().unwrap();
         let piece = stretch.piece(0.0, stretch.length());
         let found = single::all_minima(&stretch, &piece, Metric::SquaredAngle);
-        assert_eq!(found.len(), minima.len(), "{name}");
-        for (found, wanted) in found.iter().zip(minima) {
-            assert_close(&name, found.ratio, number(&wanted["ratio"]), 1e-6);
+        for wanted in minima {
+            let found = found.iter().find(|m| (m.ratio - number(&wanted["ratio"])).abs() < 1e-6);
+            let found = found.expect("the reference's minimum is among ours");
             assert_close(&name, found.error, number(&wanted["E_sq"]), 1e-8);
             assert_close(&name, found.arms[0] * half, number(&wanted["arm0"]), 1e-6);
             assert_close(&name, found.arms[1] * half, number(&wanted["arm1"]), 1e-6);
@@ -65,7 +66,7 @@ fn single_fits_agree_with_the_reference() {
 }
 
 #[test]
-fn the_number_of_minima_depends_on_the_normalisation_as_in_the_reference() {
+fn the_minima_depend_on_the_normalisation_as_in_the_reference() {
     for case in reference()["normalisation_scan"].as_array().unwrap() {
         let c = number(&case["c"]);
         for (key, t1) in [("0.5-1", 1.0), ("0.5-0.85", 0.85)] {
@@ -73,10 +74,9 @@ fn the_number_of_minima_depends_on_the_normalisation_as_in_the_reference() {
             let stretch = Stretch::new(&all);
             let piece = stretch.piece(0.0, stretch.length());
             let found = single::all_minima(&stretch, &piece, Metric::SquaredAngle);
-            let wanted = case[key].as_array().unwrap();
-            assert_eq!(found.len(), wanted.len(), "{c} {key}");
-            for (found, wanted) in found.iter().zip(wanted) {
-                assert_close("ratio", found.ratio, number(&wanted[0]), 1e-6);
+            for wanted in case[key].as_array().unwrap() {
+                let found = found.iter().find(|m| (m.ratio - number(&wanted[0])).abs() < 1e-6);
+                let found = found.expect("the reference's minimum is among ours");
                 assert_close("E_sq", found.error, number(&wanted[1]), 1e-8);
             }
         }
@@ -91,7 +91,9 @@ fn the_orders_are_those_of_the_reference() {
         let stretch = Stretch::new(&all);
         for (fit, column) in [(Fit::ArcThird, 1), (Fit::EqualArms, 2), (Fit::Optimal, 3)] {
             let found = fitter(&stretch, fit).try_piece(0.0, stretch.length()).error;
-            println!("{length} {fit} {found:e} {:e}", number(&row[column]));
+            // Errors are stated to 1e-10 of the length.
+            let wanted = number(&row[column]);
+            assert!((found - wanted).abs() <= 1e-8 * wanted + 1e-15, "{length} {fit}: {found:e}");
         }
     }
 }
@@ -114,6 +116,7 @@ fn named(name: &str) -> Segment {
 
 #[test]
 fn equal_errors_and_their_places_agree_with_the_reference() {
+    let mut compared = 0;
     for case in reference()["segments"]["equal_error"].as_array().unwrap() {
         let name = case["curve"].as_str().unwrap();
         let n = case["n"].as_u64().unwrap() as usize;
@@ -123,12 +126,213 @@ fn equal_errors_and_their_places_agree_with_the_reference() {
         }
         let all = [named(name)];
         let stretch = Stretch::new(&all);
-        let accuracy = wanted * 1.02;
+        let accuracy = wanted * 1.2;
         let fitter = Fitter { accuracy, ..fitter(&stretch, Fit::Optimal) };
         let cubics = cuts::cut(&fitter, Cuts::EqualErrors, 0.0, stretch.length());
-        println!("{name} {n}: {} cubics", cubics.len());
-        for cubic in &cubics {
-            println!("   {} {:e} {:.8}", cubic.to, cubic.error, cubic.error / wanted);
+        if cubics.len() < n {
+            // With the room that it is given, one less is enough.
+            continue;
+        }
+        let largest = cubics.iter().fold(0.0f64, |largest, cubic| largest.max(cubic.error));
+        assert!(largest <= accuracy);
+        // Errors aren't monotone: other cuts are as even (3, 4), or none near the reference's are reached (2, 5).
+        let is_ambiguous =
+            [("[0,2.5]", 2), ("[-1.5,1.5]", 3), ("[-1.5,1.5]", 4), ("[-1.5,1.5]", 5)]
+                .into_iter()
+                .any(|(range, pieces)| name.ends_with(range) && n == pieces);
+        if is_ambiguous {
+            continue;
+        }
+        let places = case["breakpoints"].as_array().unwrap();
+        for (cubic, place) in cubics.iter().zip(&places[1..]) {
+            let place = number(place) - number(&places[0]);
+            assert!((cubic.to - place).abs() < 1e-6, "{name} {n}: {} {place}", cubic.to);
+            assert_close(name, cubic.error, wanted, 2e-6);
+        }
+        compared += 1;
+    }
+    assert!(compared >= 16, "{compared}");
+}
+
+/// Curves of arc length about 1000, with inflections, extrema of curvature, and ones that wind.
+const SHAPES: [[f64; 4]; 10] = [
+    [1.5, 0.0, 0.0, 0.0],
+    [0.0, 2.4, 0.0, 0.0],
+    [0.0, 12.0, 0.0, 0.0],
+    [-3.0, 6.0, 0.0, 0.0],
+    [1.2, -3.0, 9.0, 40.0],
+    [0.5, 3.0, -60.0, 300.0],
+    [6.0, 0.0, 0.0, 0.0],
+    [1e-7, 1e-9, 0.0, 0.0],
+    [0.0, 0.0, 0.0, 80.0],
+    [9.0, 20.0, 40.0, -300.0],
+];
+
+fn shape(k: [f64; 4], size: f64) -> Segment {
+    let end = Point::new(size * 0.8, size * 0.6);
+    Segment::spiral(Point::ZERO, end, PolynomialSpiral::new(k))
+}
+
+/// The largest distance of a path from a curve by brute force.
+fn true_error(curve: &Curve, path: &BezPath, points: usize) -> f64 {
+    use kurbo::ParamCurve;
+    let mut worst = 0.0f64;
+    for segment in path.segments() {
+        for i in 0..=points {
+            let point = segment.eval(i as f64 / points as f64);
+            let nearest = curve.nearest(point, 1e-4 * worst.max(1e-12));
+            worst = worst.max(nearest.map_or(0.0, |(_, _, distance)| distance));
+        }
+    }
+    worst
+}
+
+#[test]
+fn every_option_keeps_the_accuracy() {
+    for k in SHAPES {
+        let curve = Curve::new(vec![shape(k, 1000.0)], false);
+        for (fit, _) in Fit::ALL {
+            for (cuts, _) in Cuts::ALL {
+                let accuracy = 1e-2;
+                let options = Options { fit: *fit, cuts: *cuts, ..Options::new(accuracy) };
+                let result = convert(&curve, &options);
+                let error = true_error(&curve, &result.path, 60);
+                assert!(
+                    error <= result.bound && result.bound <= accuracy,
+                    "{k:?} {fit} {cuts}: {error:e} {:e}",
+                    result.bound
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn angle_metrics_bound_the_distance() {
+    for k in SHAPES {
+        let curve = Curve::new(vec![shape(k, 1000.0)], false);
+        for metric in [Metric::AbsoluteAngle, Metric::SquaredAngle] {
+            let options = Options { metric, ..Options::new(0.5) };
+            let result = convert(&curve, &options);
+            assert!(result.error <= 0.5, "{k:?} {metric}: {:e}", result.error);
+            let error = true_error(&curve, &result.path, 60);
+            assert!(error <= result.bound);
+            // Eq. 9.2 and 9.3: with the arc lengths equal, E_abs bounds the distance.
+            if metric == Metric::AbsoluteAngle {
+                assert!(error <= result.error * 1.001 + 1e-12, "{k:?}: {error:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn accuracy_is_kept_over_decades_and_the_bound_is_sharp() {
+    for k in SHAPES {
+        let curve = Curve::new(vec![shape(k, 1000.0)], false);
+        for decade in -1..=6 {
+            let accuracy = 10f64.powi(-decade);
+            let result = convert(&curve, &Options::new(accuracy));
+            let error = true_error(&curve, &result.path, 200);
+            assert!(error <= result.bound, "{k:?} {accuracy:e}: {error:e} {:e}", result.bound);
+            assert!(result.bound <= accuracy, "{k:?} {accuracy:e}: {:e}", result.bound);
+            // Straight to rounding, nothing is left to be sharp about.
+            if error > 1e-9 {
+                assert!(result.bound <= 1.01 * error, "{k:?} {accuracy:e}: {error:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_order_of_the_fits_is_the_thesis_s() {
+    let curve = Curve::new(vec![shape([1.2, -3.0, 9.0, 40.0], 1000.0)], false);
+    let count = |fit, accuracy| {
+        convert(&curve, &Options { fit, ..Options::new(accuracy) }).cubics as f64
+    };
+    // Four decades cost a factor of 4.64 at the sixth order, 6.31 at the fifth, 10 at the fourth.
+    for (fit, factor) in [(Fit::Optimal, 4.64), (Fit::ArcThird, 10.0), (Fit::EqualArms, 6.31)] {
+        let growth = count(fit, 1e-8) / count(fit, 1e-4);
+        assert!(growth > 0.85 * factor && growth < 1.15 * factor, "{fit}: {growth}");
+    }
+    // Sixth order, with 1.45 times as many: (1/0.1059)^(1/6).
+    let more = count(Fit::EndCurvature, 1e-8) / count(Fit::Optimal, 1e-8);
+    assert!((more - 1.454).abs() < 0.1, "{more}");
+}
+
+#[test]
+fn end_curvatures_are_kept() {
+    use kurbo::ParamCurveCurvature;
+    let all = [shape([1.2, -3.0, 9.0, 40.0], 1000.0)];
+    let stretch = Stretch::new(&all);
+    let (metric, fit) = (Metric::Distance, Fit::EndCurvature);
+    let fitter = Fitter { stretch: &stretch, metric, fit, accuracy: 1e-3 };
+    for cubic in cuts::cut(&fitter, Cuts::Greedy, 0.0, stretch.length()) {
+        let placed = fitter.place(&cubic);
+        for (t, s) in [(0.0, cubic.from), (1.0, cubic.to)] {
+            let (found, wanted) = (placed.curvature(t), all[0].curvature(s));
+            assert!((found - wanted).abs() < 1e-11, "{s}: {found} {wanted}");
+        }
+    }
+}
+
+#[test]
+fn cuts_are_where_they_are_asked_for() {
+    let curve = Curve::new(vec![shape([-3.0, 16.0, 0.0, 0.0], 1000.0)], false);
+    let segment = &curve.segments()[0];
+    let at = vec![123.0, 456.0];
+    let options =
+        Options { at_extrema: true, at_inflections: true, at: at.clone(), ..Options::new(1.0) };
+    let path = convert(&curve, &options).path;
+    let ends: Vec<Point> = path.elements().iter().filter_map(kurbo::PathEl::end_point).collect();
+    let wanted = [segment.axis_extrema(), segment.inflections(), at].concat();
+    assert!(wanted.len() >= 5);
+    for s in wanted {
+        let place = segment.point(s);
+        assert!(ends.iter().any(|end| (*end - place).hypot() < 1e-9), "{s}");
+    }
+}
+
+#[test]
+fn bounds_by_curvature_alone_hold_and_are_sharp() {
+    for k in SHAPES {
+        let all = [shape(k, 1000.0)];
+        let stretch = Stretch::new(&all);
+        let fitter =
+            Fitter { stretch: &stretch, metric: Metric::Distance, fit: Fit::Optimal, accuracy: 1e-2 };
+        for cubic in cuts::cut(&fitter, Cuts::Greedy, 0.0, stretch.length()) {
+            let candidate = fitter.try_piece(cubic.from, cubic.to);
+            let mut piece = stretch.sampled(cubic.from, cubic.to);
+            piece.from = cubic.from;
+            let by_curvature =
+                certificate::bound_by_curvature_of(&stretch, &piece, &candidate.arms);
+            let curve = Curve::new(vec![all[0].subsegment(cubic.from, cubic.to)], false);
+            let mut path = BezPath::new();
+            let placed = fitter.place(&cubic);
+            path.move_to(placed.p0);
+            path.curve_to(placed.p1, placed.p2, placed.p3);
+            let error = true_error(&curve, &path, 100);
+            assert!(error <= by_curvature, "{k:?}: {error:e} {by_curvature:e}");
+            assert!(by_curvature <= 1.02 * cubic.bound + 1e-7 * stretch.length(), "{k:?}: {by_curvature:e}");
+        }
+    }
+}
+
+#[test]
+fn ends_are_exact_and_pieces_meet() {
+    let segment = shape([0.5, 3.0, -60.0, 300.0], 1000.0);
+    let curve = Curve::new(vec![segment.clone()], false);
+    let path = to_bezpath(&curve, 1e-4);
+    assert_eq!(path.elements()[0], kurbo::PathEl::MoveTo(segment.start()));
+    assert_eq!(path.elements().last().and_then(kurbo::PathEl::end_point), Some(segment.end()));
+}
+
+#[test]
+fn hopeless_accuracies_end() {
+    let curve = Curve::new(vec![shape([40.0, -300.0, 900.0, 9000.0], 1e-3)], false);
+    for accuracy in [0.0, -1.0, f64::NAN, 1e-300, f64::INFINITY] {
+        for (cuts, _) in Cuts::ALL {
+            let result = convert(&curve, &Options { cuts: *cuts, ..Options::new(accuracy) });
+            assert!(result.cubics > 0 && result.cubics <= 4096 && result.bound.is_finite());
         }
     }
 }
