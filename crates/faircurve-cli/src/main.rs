@@ -4,6 +4,7 @@
 //! usage, nothing written.
 
 mod args;
+mod beziers;
 mod failure;
 mod input;
 mod list;
