@@ -239,8 +239,8 @@ pub(super) fn greedy(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
 /// Pieces are never shorter than this, so that the work is bounded: 4096 a segment.
 pub(super) fn shortest(fitter: &Fitter<'_>, from: f64, to: f64) -> f64 {
     const MOST_PIECES: f64 = 4096.0;
-    let _ = fitter;
-    (to - from) / MOST_PIECES
+    let segments = fitter.stretch.span(from, to).count();
+    (to - from) / (MOST_PIECES * segments as f64)
 }
 
 fn first_guess(fitter: &Fitter<'_>, from: f64, to: f64) -> f64 {
@@ -356,7 +356,7 @@ fn longest_estimate(
     const RESOLUTION: f64 = 1.003;
     let rest = to - from;
     let target = AIM * fitter.accuracy;
-    let mut length = guess.min(rest);
+    let mut length = guess.max(shortest).min(rest);
     // The trial before: length and error.
     let mut last: Option<(f64, f64)> = None;
     for _ in 0..MOST_TRIALS {

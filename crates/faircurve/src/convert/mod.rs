@@ -3,6 +3,7 @@
 mod certificate;
 mod contact;
 mod cuts;
+mod fit_source;
 mod fitter;
 mod metric;
 mod minimax;
@@ -17,6 +18,7 @@ use kurbo::BezPath;
 
 use crate::curve::Curve;
 use crate::segment::Segment;
+use crate::tolerance::SOLVED;
 
 use fitter::Fitter;
 use piece::Stretch;
@@ -82,7 +84,10 @@ pub fn convert(curve: &Curve, options: &Options) -> Conversion {
         }
         let mut end = i + 1;
         if options.span_knots {
-            while end < segments.len() && is_smooth(&segments[end - 1], &segments[end]) {
+            while end < segments.len()
+                && !segments[end].is_line()
+                && joins_smoothly(&segments[end - 1], &segments[end])
+            {
                 end += 1;
             }
         }
@@ -96,9 +101,10 @@ pub fn convert(curve: &Curve, options: &Options) -> Conversion {
     result
 }
 
-fn is_smooth(before: &Segment, after: &Segment) -> bool {
+/// Whether the direction is continuous from one segment to the next.
+fn joins_smoothly(before: &Segment, after: &Segment) -> bool {
     let turn = after.direction(0.0) - before.direction(before.length());
-    !after.is_line() && turn.sin().abs() < 1e-9 && turn.cos() > 0.0
+    turn.sin().abs() <= SOLVED && turn.cos() > 0.0
 }
 
 /// `start`: the arc length of the curve at which the stretch starts.

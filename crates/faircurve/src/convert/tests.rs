@@ -340,3 +340,145 @@ fn hopeless_accuracies_end() {
         }
     }
 }
+
+/// Random numbers in [0, 1).
+fn random(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed;
+    move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// The largest distance of a placed cubic from a segment's part, followed along both.
+fn deviation(segment: &Segment, [from, to]: [f64; 2], cubic: &kurbo::CubicBez) -> f64 {
+    use kurbo::ParamCurve;
+    let mut worst = 0.0f64;
+    let mut s = from;
+    for i in 0..=64 {
+        let point = cubic.eval(f64::from(i) / 64.0);
+        for _ in 0..12 {
+            let (tangent, off) = (Vec2::from_angle(segment.direction(s)), point - segment.point(s));
+            let lever = (1.0 - segment.curvature(s) * tangent.cross(off)).max(0.2);
+            s = (s + off.dot(tangent) / lever).clamp(from, to);
+        }
+        worst = worst.max((point - segment.point(s)).hypot());
+    }
+    worst
+}
+
+#[test]
+fn the_bound_holds_on_random_pieces() {
+    let mut random = random(5);
+    let mut sharp = 0;
+    let cases = 20_000;
+    for _ in 0..cases {
+        let mut k = [1.0, 2.0, 8.0, 48.0].map(|size| size * (2.0 * random() - 1.0));
+        for k in &mut k {
+            if random() < 0.3 {
+                *k = 0.0;
+            }
+        }
+        let turn = 6.0 * random();
+        let wildness = crate::numeric::spiro_integral::wildness(k);
+        if wildness == 0.0 {
+            continue;
+        }
+        let spiral = PolynomialSpiral::new(k.map(|k| k * turn / wildness));
+        let size = 10f64.powf(18.0 * random() - 9.0);
+        let shift = Vec2::new(random() - 0.5, random() - 0.5) * size * 10f64.powf(6.0 * random() - 3.0);
+        let start = Point::ZERO + shift;
+        let segment = Segment::spiral(start, start + Vec2::from_angle(6.3 * random()) * size, spiral);
+        if segment.is_line() {
+            continue;
+        }
+        let all = [segment.clone()];
+        let stretch = Stretch::new(&all);
+        let fitter =
+            Fitter { stretch: &stretch, metric: Metric::Distance, fit: Fit::Optimal, accuracy: 1.0 };
+        let (a, b) = (random(), random());
+        let part = [a.min(b), a.max(b)].map(|along| along * segment.length());
+        if part[1] - part[0] < 1e-6 * segment.length() {
+            continue;
+        }
+        let candidate = fitter.try_piece(part[0], part[1]);
+        let cubic = fitter.certify(&candidate);
+        let error = deviation(&segment, part, &fitter.place(&cubic));
+        assert!(error <= cubic.bound, "{k:?} {turn} {part:?}: {error:e} {:e}", cubic.bound);
+        // Above rounding, of pieces that a conversion would use.
+        let rounding = certificate::rounding(&stretch, &candidate.piece);
+        if cubic.bound < 1e-2 * (part[1] - part[0]) && error > 1e3 * rounding {
+            assert!(cubic.bound <= 1.05 * error, "{k:?} {turn} {part:?}: {error:e} {:e}", cubic.bound);
+            sharp += usize::from(cubic.bound <= 1.01 * error);
+        }
+    }
+    println!("{sharp} of {cases} within 1 %");
+}
+
+#[test]
+fn kurbo_s_fitters_run_and_moments_are_exact() {
+    use kurbo::ParamCurveFit;
+    let mut at = Point::new(3.0, -4.0);
+    let mut segments = Vec::new();
+    for (i, k) in SHAPES.into_iter().enumerate() {
+        let end = at + Vec2::from_angle(i as f64) * 100.0;
+        segments.push(Segment::spiral(at, end, PolynomialSpiral::new(k)));
+        at = end;
+    }
+    let curve = Curve::new(segments, false);
+    let (whole, halves) =
+        (curve.moment_integrals(0.0..1.0), [0.0..0.37, 0.37..1.0].map(|r| curve.moment_integrals(r)));
+    // Additive, and near to a fine sum.
+    let n = 200_000;
+    let (mut area, mut last) = (0.0, curve.at(0.0).unwrap().point);
+    for i in 1..=n {
+        let point = curve.at(curve.length() * f64::from(i) / f64::from(n)).unwrap().point;
+        area += (point.x - last.x) * (point.y + last.y) / 2.0;
+        last = point;
+    }
+    assert!((whole.0 - area).abs() < 1e-6 * area.abs(), "{} {area}", whole.0);
+    assert!((whole.0 - halves[0].0 - halves[1].0).abs() < 1e-12 * 1e5);
+    assert!((whole.1 - halves[0].1 - halves[1].1).abs() < 1e-12 * 1e7);
+    assert!((whole.2 - halves[0].2 - halves[1].2).abs() < 1e-12 * 1e7);
+    let path = kurbo::fit_to_bezpath(&curve, 0.01);
+    assert!(true_error(&curve, &path, 20) < 0.02);
+    assert!(curve.break_cusp(0.0..1.0).is_some());
+}
+
+#[test]
+fn slivers_hairpins_loops_and_many_knots_end() {
+    let hard = [
+        [0.0, 0.0, 0.0, 1e-300],
+        [300.0, 0.0, 0.0, 0.0],
+        [0.0, 1e4, 0.0, 0.0],
+        [0.0, 0.0, 1e5, -1e6],
+        [std::f64::consts::TAU * 0.999_999_99, 0.0, 0.0, 0.0],
+        [1e5, 1e5, 1e5, 1e5],
+    ];
+    for k in hard {
+        for size in [1e-50, 1e-9, 1.0, 1e9, 1e50] {
+            let curve = Curve::new(vec![shape(k, size)], false);
+            for accuracy in [1e-3 * size, 1e-9 * size, 1e-3] {
+                let result = convert(&curve, &Options::new(accuracy));
+                assert!(result.path.is_finite() && result.bound.is_finite(), "{k:?} {size:e}");
+            }
+        }
+    }
+    // 10⁵ knots on a wave.
+    let segments: Vec<Segment> = (0..100_000)
+        .map(|i| {
+            let x = f64::from(i);
+            Segment::spiral(
+                Point::new(x, 0.0),
+                Point::new(x + 1.0, 0.0),
+                PolynomialSpiral::new([0.0, if i % 2 == 0 { 3.0 } else { -3.0 }, 0.0, 0.0]),
+            )
+        })
+        .collect();
+    let curve = Curve::new(segments, false);
+    for span_knots in [false, true] {
+        let result = convert(&curve, &Options { span_knots, ..Options::new(1e-3) });
+        assert!(result.bound <= 1e-3);
+        assert!(result.cubics >= 100_000);
+    }
+}
