@@ -121,14 +121,20 @@ pub(super) fn distance_bound(stretch: &Stretch<'_>, piece: &Piece, fit: &Fit) ->
 /// What rounding can add to a deviation: of the coordinates, of the curve's own points (1e-15 of a
 /// segment's length, more if it is wound up), and of the polynomials here.
 pub(super) fn rounding(stretch: &Stretch<'_>, piece: &Piece) -> f64 {
+    let of_segments = rounding_of(&stretch.segments()[stretch.span(piece.from, piece.to)]);
+    of_segments + 64.0 * f64::EPSILON * piece.half
+}
+
+/// What rounding can add wherever these segments take part.
+pub(super) fn rounding_of(segments: &[Segment]) -> f64 {
     let mut size = 0.0f64;
-    for segment in &stretch.segments()[stretch.span(piece.from, piece.to)] {
+    for segment in segments {
         let [start, end] = [segment.start(), segment.end()];
         let coordinate = start.x.abs().max(start.y.abs()).max(end.x.abs()).max(end.y.abs());
         let wound = 1.0 + 0.1 * wildness(segment.kappa());
         size = size.max(coordinate + 2.0 * segment.length() * wound);
     }
-    8.0 * f64::EPSILON * size + 64.0 * f64::EPSILON * piece.half
+    8.0 * f64::EPSILON * size
 }
 
 /// Half-length units. `ends`: parameters of the cubic at x = ∓1; `params`: at the nodes inside.

@@ -253,7 +253,7 @@ fn first_guess(fitter: &Fitter<'_>, from: f64, to: f64) -> f64 {
 /// The longest cubic from `from` within the accuracy, or one of the shortest length without it.
 fn farthest(fitter: &Fitter<'_>, from: f64, to: f64, guess: f64, shortest: f64) -> Cubic {
     /// Of certificates that are refused; each shortens the piece.
-    const MOST_REFUSALS: usize = 8;
+    const MOST_REFUSALS: usize = 4;
     let rest = to - from;
     let mut search = Search::new();
     let mut length = guess;

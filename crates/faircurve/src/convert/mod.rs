@@ -109,9 +109,11 @@ fn joins_smoothly(before: &Segment, after: &Segment) -> bool {
 
 /// `start`: the arc length of the curve at which the stretch starts.
 fn append_stretch(result: &mut Conversion, segments: &[Segment], start: f64, options: &Options) {
+    /// Finer is rounding, as a part of the length, and in multiples of what rounding is allowed for.
     const FINEST: f64 = 1e-12;
+    const ROUNDINGS: f64 = 4.0;
     let stretch = Stretch::new(segments);
-    let finest = FINEST * stretch.length();
+    let finest = FINEST * stretch.length() + ROUNDINGS * certificate::rounding_of(segments);
     let accuracy = if options.accuracy > finest { options.accuracy } else { finest };
     let fitter =
         Fitter { stretch: &stretch, metric: options.metric, fit: options.fit, accuracy };

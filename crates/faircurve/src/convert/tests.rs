@@ -408,7 +408,7 @@ fn the_bound_holds_on_random_pieces() {
         // Above rounding, of pieces that a conversion would use.
         let rounding = certificate::rounding(&stretch, &candidate.piece);
         if cubic.bound < 1e-2 * (part[1] - part[0]) && error > 1e3 * rounding {
-            assert!(cubic.bound <= 1.05 * error, "{k:?} {turn} {part:?}: {error:e} {:e}", cubic.bound);
+            assert!(cubic.bound <= 1.05 * error, "{k:?} {turn} {part:?}: {error:e} {:e} size {size:e} est {:e} rounding {rounding:e} shift {shift:?} {:?}", cubic.bound, candidate.error, candidate.arms);
             sharp += usize::from(cubic.bound <= 1.01 * error);
         }
     }
