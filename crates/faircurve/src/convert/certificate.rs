@@ -97,7 +97,7 @@ fn lagrange<const N: usize>(nodes: [f64; N]) -> [[f64; N]; N] {
 }
 
 /// How deep a piece is halved for a sharper bound.
-const MOST_HALVINGS: u32 = 4;
+const MOST_HALVINGS: u32 = 7;
 
 /// A bound of the distance between the cubic of these arms and its piece of the stretch, in user units;
 /// infinite where the cubic doesn't run along the piece.
