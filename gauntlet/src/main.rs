@@ -1,8 +1,9 @@
 //! faircurve and libspiro side by side: see the README.
 
 mod against_search;
-mod bezier;
 mod all;
+mod bezier;
+mod bezier_fonts;
 mod classes;
 #[cfg(libspiro)]
 mod ffi;
@@ -82,7 +83,21 @@ enum Command {
     },
     /// Béziers against kurbo's fitters on six curves
     Bezier {
-        /// Also kurbo's slow one
+        /// Rounds of the times; the fastest counts
+        #[arg(long, default_value_t = 40)]
+        rounds: usize,
+        /// Instead, this many random pairs of spirals, whose bounds must hold
+        #[arg(long, value_name = "CASES")]
+        random: Option<usize>,
+        /// Other spirals for every number
+        #[arg(long, default_value_t = 0)]
+        seed: u64,
+    },
+    /// Béziers of whole fonts against libspiro's and kurbo's
+    BezierFonts {
+        /// SFD files [default: those next to the repository]
+        files: Vec<PathBuf>,
+        /// Also kurbo's slow fitter
         #[arg(long)]
         opt: bool,
     },
@@ -186,7 +201,9 @@ fn run(arguments: &Arguments) -> Result<Report, Failure> {
             let folder = yardstick.clone().unwrap_or_else(yardstick::default_folder);
             against_search::run(&folder, filter, &fonts_input::read(&[]).unwrap_or_default())
         }
-        Command::Bezier { opt } => bezier::run(*opt),
+        Command::Bezier { random: Some(cases), seed, .. } => Ok(bezier::random(*cases, *seed)),
+        Command::Bezier { rounds, .. } => Ok(bezier::run(*rounds)),
+        Command::BezierFonts { files, opt } => bezier_fonts::run(&fonts_input::read(files)?, *opt),
         Command::Hostile { cases, seed } => hostile::run(*cases, *seed),
     }
 }

@@ -20,6 +20,67 @@ pub(super) fn cut(fitter: &Fitter<'_>, cuts: Cuts, from: f64, to: f64) -> Vec<Cu
     }
 }
 
+/// Greedy, with joints beside the curve: the deviation between two joints that are on the side to which E₆ turns it is 0.70
+/// times as large, and 6 % fewer cubics are enough.
+///
+/// Of all ways to reach a joint with k cubics, for each of three offsets only the farthest is kept: a dynamic programme
+/// that is exact where the error is monotone.
+pub(super) fn with_free_joints(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
+    /// Sides: none first, which an end needs.
+    const SIDES: [f64; 3] = [0.0, 1.0, -1.0];
+    /// The part of the accuracy that an offset is: as large as the deviation between may be.
+    const OFFSET: f64 = 0.985;
+    let plain = greedy(fitter, from, to);
+    let shortest = shortest(fitter, from, to);
+    let offset = |side: usize| SIDES[side] * OFFSET * fitter.accuracy;
+    // For each number of cubics and side the last cubic and the side that it comes from.
+    let mut steps: Vec<[Option<(Cubic, usize)>; 3]> = Vec::new();
+    let mut places: [Option<f64>; 3] = [Some(from), None, None];
+    while steps.len() + 1 < plain.len() {
+        let mut step = [None; 3];
+        let guess = plain[steps.len()].to - plain[steps.len()].from;
+        for (before, place) in places.iter().enumerate() {
+            let Some(place) = *place else { continue };
+            for after in 0..3 {
+                let fitter = Fitter { offsets: [offset(before), offset(after)], ..*fitter };
+                // The end itself is on the curve.
+                let limit = if after == 0 { to } else { to - shortest };
+                if !(place < limit) {
+                    continue;
+                }
+                let guess = predict(&fitter, place, limit, guess);
+                let cubic = farthest(&fitter, place, limit, guess, shortest);
+                let is_best = step[after].is_none_or(|(best, _): (Cubic, usize)| cubic.to > best.to);
+                if cubic.error <= fitter.accuracy && is_best {
+                    step[after] = Some((cubic, before));
+                }
+            }
+        }
+        places = step.map(|reached| reached.map(|(cubic, _)| cubic.to));
+        steps.push(step);
+        if places[0] == Some(to) {
+            return traced_back(&steps);
+        }
+        if places.iter().all(Option::is_none) {
+            break;
+        }
+    }
+    plain
+}
+
+/// The way to the end, on the curve.
+fn traced_back(steps: &[[Option<(Cubic, usize)>; 3]]) -> Vec<Cubic> {
+    let mut cubics = Vec::with_capacity(steps.len());
+    let mut side = 0;
+    for step in steps.iter().rev() {
+        let Some((cubic, before)) = step[side] else { break };
+        cubics.push(cubic);
+        side = before;
+    }
+    cubics.reverse();
+    cubics
+}
+
 /// In two until the accuracy is met (section 9.6.2).
 fn halving(
     fitter: &Fitter<'_>,

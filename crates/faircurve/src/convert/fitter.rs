@@ -7,17 +7,19 @@ use super::contact;
 use super::metric::angle_error;
 use super::minimax::{Fit as Arms, LocalCubic, first_params, measure, minimax};
 use super::options::{Fit, Metric};
-use super::piece::{Piece, Stretch};
+use super::piece::{Joint, Piece, Stretch};
 use super::single;
 
 /// Fits cubics to pieces of one stretch.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Fitter<'a> {
     pub(super) stretch: &'a Stretch<'a>,
     pub(super) metric: Metric,
     pub(super) fit: Fit,
     /// What errors are held against, in the metric's units.
     pub(super) accuracy: f64,
+    /// How far cubics start and end to the left of the curve, in user units.
+    pub(super) offsets: [f64; 2],
 }
 
 /// Pieces shorter than this part of a stretch that have no cubic with their end curvatures get the best one without.
@@ -37,6 +39,8 @@ pub(super) struct Candidate {
 pub(super) struct Cubic {
     pub(super) from: f64,
     pub(super) to: f64,
+    /// How far its ends are to the left of the curve.
+    pub(super) offsets: [f64; 2],
     /// Arm lengths in user units.
     pub(super) arms: [f64; 2],
     /// Error in the metric's units; of distances the bound.
@@ -48,7 +52,7 @@ pub(super) struct Cubic {
 impl Fitter<'_> {
     /// The best cubic for a piece.
     pub(super) fn try_piece(&self, from: f64, to: f64) -> Candidate {
-        let piece = self.stretch.piece(from, to);
+        let piece = self.stretch.piece(from, to).with_offsets(self.offsets);
         let measured = |arms: [f64; 2]| measure(&piece, arms, first_params(arms));
         let arms = match (self.fit, self.metric) {
             (Fit::ArcThird, _) => measured(single::ARC_THIRD),
@@ -102,17 +106,23 @@ impl Fitter<'_> {
             bound = farthest_apart(piece, lengths);
         }
         let error = if self.metric == Metric::Distance { bound } else { *error };
-        Cubic { from: piece.from, to: piece.to, arms: lengths, error, bound }
+        let offsets = self.offsets;
+        Cubic { from: piece.from, to: piece.to, offsets, arms: lengths, error, bound }
     }
 
     /// The cubic in place.
     pub(super) fn place(&self, cubic: &Cubic) -> CubicBez {
         let [from, to] = [cubic.from, cubic.to].map(|s| self.stretch.joint(s));
+        let moved = |joint: &Joint, offset: f64| {
+            // Exact where there is nothing to move.
+            if offset == 0.0 { joint.point } else { joint.point + joint.tangent.turn_90() * offset }
+        };
+        let (start, end) = (moved(&from, cubic.offsets[0]), moved(&to, cubic.offsets[1]));
         CubicBez::new(
-            from.point,
-            from.point + from.tangent * cubic.arms[0],
-            to.point - to.tangent * cubic.arms[1],
-            to.point,
+            start,
+            start + from.tangent * cubic.arms[0],
+            end - to.tangent * cubic.arms[1],
+            end,
         )
     }
 }
@@ -121,5 +131,6 @@ impl Fitter<'_> {
 /// start in one place, the piece ends within its length of it, and control points lie within the longer arm
 /// of the ends.
 fn farthest_apart(piece: &Piece, arms: [f64; 2]) -> f64 {
-    4.0 * piece.half + arms[0].max(arms[1])
+    let offset = piece.offsets[0].abs().max(piece.offsets[1].abs()) * piece.half;
+    4.0 * piece.half + arms[0].max(arms[1]) + offset
 }

@@ -184,7 +184,8 @@ pub(super) fn measure(piece: &Piece, arms: [f64; 2], mut params: [f64; NODES]) -
         params[i] = t;
         deviation[i] = i0 - place.im + (i1 + (i2 + i3 * t) * t) * t;
     }
-    let mut error = largest(&on_grid(&deviation));
+    let mut error = largest(&on_grid_between(piece.offsets, &deviation));
+    error = error.max(piece.offsets[0].abs()).max(piece.offsets[1].abs());
     // Where the cubic stands still or runs backwards beside the piece, it isn't a fit; nor is NaN.
     if !(slowest > 0.0) || deviation.iter().any(|d| d.is_nan()) {
         error = f64::INFINITY;
@@ -231,6 +232,23 @@ fn on_grid(nodes: &[f64; NODES]) -> [f64; GRID] {
         let o = for_odd[0] * odd[0] + for_odd[1] * odd[1] + for_odd[2] * odd[2];
         values[GRID - 1 - g] = e + o;
         values[g] = e - o;
+    }
+    values
+}
+
+/// The same of a deviation that isn't zero at the ends, though its slope is: less a cubic that is as large there.
+fn on_grid_between([from, to]: [f64; 2], nodes: &[f64; NODES]) -> [f64; GRID] {
+    if from == 0.0 && to == 0.0 {
+        return on_grid(nodes);
+    }
+    let blend = |x: f64| (to + from) / 2.0 + (to - from) / 4.0 * x * (3.0 - x * x);
+    let mut rest = *nodes;
+    for (value, x) in rest.iter_mut().zip(PLACES) {
+        *value -= blend(x);
+    }
+    let mut values = on_grid(&rest);
+    for (g, value) in values.iter_mut().enumerate() {
+        *value += blend(-(std::f64::consts::PI * (g + 1) as f64 / (GRID + 1) as f64).cos());
     }
     values
 }
@@ -318,7 +336,8 @@ fn exchange(piece: &Piece, fit: &Fit) -> Option<([f64; 2], f64)> {
         by_a[i] = 3.0 * u * u * t * cross(tangent, t0);
         by_b[i] = -3.0 * u * t * t * cross(tangent, t1);
     }
-    let (n, by_a, by_b) = (on_grid(&fit.deviation), on_grid(&by_a), on_grid(&by_b));
+    let n = on_grid_between(piece.offsets, &fit.deviation);
+    let (by_a, by_b) = (on_grid(&by_a), on_grid(&by_b));
     let at = |reference: [usize; 3]| {
         (reference.map(|g| n[g]), reference.map(|g| by_a[g]), reference.map(|g| by_b[g]))
     };

@@ -116,9 +116,15 @@ fn append_stretch(result: &mut Conversion, segments: &[Segment], start: f64, opt
     let finest = FINEST * stretch.length() + ROUNDINGS * certificate::rounding_of(segments);
     let accuracy = if options.accuracy > finest { options.accuracy } else { finest };
     let fitter =
-        Fitter { stretch: &stretch, metric: options.metric, fit: options.fit, accuracy };
+        Fitter { stretch: &stretch, metric: options.metric, fit: options.fit, accuracy, offsets: [0.0; 2] };
     let places = stretch_places(&stretch, start, options);
-    let between = places.windows(2).flat_map(|pair| cuts::cut(&fitter, options.cuts, pair[0], pair[1]));
+    let is_free = options.free_joints
+        && options.metric == Metric::Distance
+        && options.fit == Fit::Optimal;
+    let between = places.windows(2).flat_map(|pair| match is_free {
+        true => cuts::with_free_joints(&fitter, pair[0], pair[1]),
+        false => cuts::cut(&fitter, options.cuts, pair[0], pair[1]),
+    });
     for cubic in between {
         let placed = fitter.place(&cubic);
         result.path.curve_to(placed.p1, placed.p2, placed.p3);

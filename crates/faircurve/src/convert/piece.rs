@@ -142,6 +142,7 @@ impl<'a> Stretch<'a> {
             to,
             half,
             ends: [Complex64::ZERO; 2],
+            offsets: [0.0; 2],
             end_tangents: [Complex64::ZERO; 2],
             end_curvature: [0.0; 2],
             places: [Complex64::ZERO; NODES],
@@ -243,7 +244,10 @@ pub(super) struct Piece {
     pub(super) to: f64,
     /// Half the arc length, in user units.
     pub(super) half: f64,
+    /// Where a cubic starts and ends: the curve's own ends, or these moved by `offsets`.
     pub(super) ends: [Complex64; 2],
+    /// How far to the left of the curve.
+    pub(super) offsets: [f64; 2],
     pub(super) end_tangents: [Complex64; 2],
     pub(super) end_curvature: [f64; 2],
     /// Points at [`PLACES`].
@@ -255,6 +259,15 @@ pub(super) struct Piece {
 }
 
 impl Piece {
+    /// With the ends of the cubic moved to the left, in user units.
+    pub(super) fn with_offsets(mut self, offsets: [f64; 2]) -> Self {
+        for end in 0..2 {
+            self.offsets[end] = offsets[end] / self.half;
+            self.ends[end] += self.end_tangents[end] * Complex64::new(0.0, self.offsets[end]);
+        }
+        self
+    }
+
     pub(super) fn of_series(from: f64, to: f64, series: Series) -> Self {
         let [p0, p1, p2, end] = series.z.pairs(&[PAIRS[0], PAIRS[1], PAIRS[2], 1.0]);
         let mut tangents = [Complex64::ZERO; NODES];
@@ -271,6 +284,7 @@ impl Piece {
             to,
             half: (to - from) / 2.0,
             ends: [end[1], end[0]],
+            offsets: [0.0; 2],
             end_tangents,
             end_curvature: [series.curvature(-1.0), series.curvature(1.0)],
             places: [p0[1], p1[1], p2[1], Complex64::ZERO, p2[0], p1[0], p0[0]],

@@ -30,7 +30,7 @@ fn assert_close(what: &str, value: f64, wanted: f64, tolerance: f64) {
 }
 
 fn fitter<'a>(stretch: &'a Stretch<'a>, fit: Fit) -> Fitter<'a> {
-    Fitter { stretch, metric: Metric::SquaredAngle, fit, accuracy: 1.0 }
+    Fitter { stretch, metric: Metric::SquaredAngle, fit, accuracy: 1.0, offsets: [0.0; 2] }
 }
 
 /// The reference looks at ratios from about 0.2 to 0.8 only; there are more minima outside, and worse ones inside.
@@ -269,7 +269,7 @@ fn end_curvatures_are_kept() {
     let all = [shape([1.2, -3.0, 9.0, 40.0], 1000.0)];
     let stretch = Stretch::new(&all);
     let (metric, fit) = (Metric::Distance, Fit::EndCurvature);
-    let fitter = Fitter { stretch: &stretch, metric, fit, accuracy: 1e-3 };
+    let fitter = Fitter { stretch: &stretch, metric, fit, accuracy: 1e-3, offsets: [0.0; 2] };
     for cubic in cuts::cut(&fitter, Cuts::Greedy, 0.0, stretch.length()) {
         let placed = fitter.place(&cubic);
         for (t, s) in [(0.0, cubic.from), (1.0, cubic.to)] {
@@ -302,7 +302,7 @@ fn bounds_by_curvature_alone_hold_and_are_sharp() {
         let all = [shape(k, 1000.0)];
         let stretch = Stretch::new(&all);
         let fitter =
-            Fitter { stretch: &stretch, metric: Metric::Distance, fit: Fit::Optimal, accuracy: 1e-2 };
+            Fitter { stretch: &stretch, metric: Metric::Distance, fit: Fit::Optimal, accuracy: 1e-2, offsets: [0.0; 2] };
         for cubic in cuts::cut(&fitter, Cuts::Greedy, 0.0, stretch.length()) {
             let candidate = fitter.try_piece(cubic.from, cubic.to);
             let mut piece = stretch.sampled(cubic.from, cubic.to);
@@ -395,7 +395,7 @@ fn the_bound_holds_on_random_pieces() {
         let all = [segment.clone()];
         let stretch = Stretch::new(&all);
         let fitter =
-            Fitter { stretch: &stretch, metric: Metric::Distance, fit: Fit::Optimal, accuracy: 1.0 };
+            Fitter { stretch: &stretch, metric: Metric::Distance, fit: Fit::Optimal, accuracy: 1.0, offsets: [0.0; 2] };
         let (a, b) = (random(), random());
         let part = [a.min(b), a.max(b)].map(|along| along * segment.length());
         if part[1] - part[0] < 1e-6 * segment.length() {
