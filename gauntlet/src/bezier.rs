@@ -44,7 +44,8 @@ fn chain(parts: &[(f64, [f64; 4])]) -> Curve {
         let spiral = PolynomialSpiral::new(k);
         let angles = spiral.chord_angles();
         let chord = spiral.chord();
-        let end = at + Vec2::from_angle(direction + angles.theta0) * (chord.length * length * 1000.0);
+        let end =
+            at + Vec2::from_angle(direction + angles.theta0) * (chord.length * length * 1000.0);
         segments.push(Segment::spiral(at, end, spiral));
         direction += angles.turning();
         at = end;
@@ -162,7 +163,11 @@ pub(crate) fn paired(rounds: usize, mut a: impl FnMut(), mut b: impl FnMut()) ->
     for _ in 0..rounds {
         for which in 0..2 {
             let start = Instant::now();
-            if which == 0 { a() } else { b() }
+            if which == 0 {
+                a()
+            } else {
+                b()
+            }
             fastest[which] = fastest[which].min(start.elapsed().as_secs_f64());
         }
     }
@@ -229,15 +234,29 @@ pub(crate) fn run(rounds: usize) -> Report {
     }
     let mean = (log_ratio / rows.len() as f64).exp();
     let header = [
-        "curve", "accuracy", "ours", "free joints", "opt", "bisect", "true/accuracy", "bound/true",
-        "opt true/acc.", "bisect true/acc.", "µs", "bisect µs", "ratio",
+        "curve",
+        "accuracy",
+        "ours",
+        "free joints",
+        "opt",
+        "bisect",
+        "true/accuracy",
+        "bound/true",
+        "opt true/acc.",
+        "bisect true/acc.",
+        "µs",
+        "bisect µs",
+        "ratio",
     ];
     let text = format!(
         "Cubics for curves of arc length 1000; opt and bisect are kurbo's fit_to_bezpath_opt and fit_to_bezpath\n\n{}\n\
          cubics: ours {}, with free joints {}, opt {}, bisect {}; largest bound/true {largest_ratio:.4}; \
          time over bisect's, geometric mean {mean:.3}\n",
         table(header, rows),
-        sums[0], sums[1], sums[2], sums[3],
+        sums[0],
+        sums[1],
+        sums[2],
+        sums[3],
     );
     let json = json!({
         "cubics": sums[0], "free_joints": sums[1], "opt": sums[2], "bisect": sums[3],
@@ -250,14 +269,14 @@ pub(crate) fn run(rounds: usize) -> Report {
 pub(crate) fn random(cases: usize, seed: u64) -> Report {
     let mut state = seed.wrapping_mul(2).wrapping_add(1);
     let mut random = move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 11) as f64 / (1u64 << 53) as f64
     };
     let (mut alarms, mut cubics, mut ratios, mut over) = (Vec::new(), 0, Vec::new(), 0);
     for case in 0..cases {
-        let mut k = [1.0, 2.0, 8.0, 48.0].map(|size| {
-            if random() < 0.3 { 0.0 } else { size * (2.0 * random() - 1.0) }
-        });
+        let mut k = [1.0, 2.0, 8.0, 48.0]
+            .map(|size| if random() < 0.3 { 0.0 } else { size * (2.0 * random() - 1.0) });
         let wildness = k[0].abs() + k[1].abs() / 2.0 + k[2].abs() / 8.0 + k[3].abs() / 48.0;
         let turn = 6.0 * random();
         if wildness > 0.0 {
@@ -268,7 +287,8 @@ pub(crate) fn random(cases: usize, seed: u64) -> Report {
             + Vec2::new(random() - 0.5, random() - 0.5) * size * 10f64.powf(4.0 * random() - 2.0);
         // A neighbour that is up to a million times larger or smaller.
         let middle = start + Vec2::from_angle(6.3 * random()) * size;
-        let end = middle + Vec2::from_angle(6.3 * random()) * size * 10f64.powf(12.0 * random() - 6.0);
+        let end =
+            middle + Vec2::from_angle(6.3 * random()) * size * 10f64.powf(12.0 * random() - 6.0);
         let curve = Curve::new(
             vec![
                 Segment::spiral(start, middle, PolynomialSpiral::new(k)),
@@ -282,7 +302,8 @@ pub(crate) fn random(cases: usize, seed: u64) -> Report {
         over += usize::from(ours.bound > accuracy);
         let error = true_error(&curve, &ours.path, 24);
         if !(error <= ours.bound) {
-            alarms.push(format!("case {case}: {k:?}: true error {error:e}, bound {:e}", ours.bound));
+            alarms
+                .push(format!("case {case}: {k:?}: true error {error:e}, bound {:e}", ours.bound));
         }
         ratios.push(ours.bound / error);
     }

@@ -146,7 +146,10 @@ impl Command {
     fn is_alone(&self) -> bool {
         matches!(
             self,
-            Command::Bezier { .. } | Command::Hostile { .. } | Command::Search { .. } | Command::AgainstSearch { .. }
+            Command::Bezier { .. }
+                | Command::Hostile { .. }
+                | Command::Search { .. }
+                | Command::AgainstSearch { .. }
         )
     }
 }

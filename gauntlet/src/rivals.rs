@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 
 use faircurve::kurbo::{BezPath, Vec2};
+use faircurve::{Contour, Curve, InputError, Join, Knot, Place, Solution, Spline, Status};
 #[cfg(libspiro)]
 use faircurve::{PolynomialSpiral, Segment};
-use faircurve::{Contour, Curve, InputError, Join, Knot, Place, Solution, Spline, Status};
 
 use crate::residual::{Piece, PlacedCurve, Residual};
 

@@ -100,9 +100,7 @@ pub(crate) fn report(jobs: &[Job], converted: &[Vec<Converted>]) {
 impl Converted {
     fn words(&self) -> String {
         let Conversion { cubics, lines, bound, .. } = self.conversion;
-        let counted = |n: usize, noun: &str| {
-            format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
-        };
+        let counted = |n: usize, noun: &str| format!("{n} {noun}{}", if n == 1 { "" } else { "s" });
         let (cubics, lines) = (counted(cubics, "cubic"), counted(lines, "line"));
         let micros = self.time.as_secs_f64() * 1e6;
         format!("{cubics}, {lines}, off by at most {bound:.3e} units, {micros:.0} µs")

@@ -447,12 +447,7 @@ struct Part<'a> {
 }
 
 /// The bound for segments that answer only for the size of their curvature, in half lengths of the piece.
-fn bound_by_curvature(
-    part: &Part<'_>,
-    cubic: &LocalCubic,
-    origin: kurbo::Point,
-    half: f64,
-) -> f64 {
+fn bound_by_curvature(part: &Part<'_>, cubic: &LocalCubic, origin: kurbo::Point, half: f64) -> f64 {
     /// Parts are halved where what interpolation adds exceeds this share of the largest difference;
     /// the bound is that much too large.
     const SHARP: f64 = 0.005;
@@ -474,7 +469,14 @@ fn bound_by_curvature(
         // Beside a cusp curvature has no bound, but neither curve gets far from both ends.
         let fastest = cubic.fastest(t0, t1);
         let slack = smooth.min((h + fastest * width) / 2.0);
-        Bounded { bound: errors[0].max(errors[1]) + slack, slack, from, to, params: [t0, t1], errors }
+        Bounded {
+            bound: errors[0].max(errors[1]) + slack,
+            slack,
+            from,
+            to,
+            params: [t0, t1],
+            errors,
+        }
     };
     let errors = [error(params[0], from), error(params[1], to)];
     let mut largest = errors[0].max(errors[1]);

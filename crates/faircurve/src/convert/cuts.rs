@@ -20,28 +20,33 @@ pub(super) fn cut(fitter: &Fitter<'_>, cuts: Cuts, from: f64, to: f64) -> Vec<Cu
     }
 }
 
+/// Offsets of a joint that are tried.
+const SIDES: usize = 3;
+
 /// Greedy, with joints beside the curve: the deviation between two joints that are on the side to which E₆ turns it is 0.70
 /// times as large, and 6 % fewer cubics are enough.
 ///
 /// Of all ways to reach a joint with k cubics, for each of three offsets only the farthest is kept: a dynamic programme
 /// that is exact where the error is monotone.
 pub(super) fn with_free_joints(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
-    /// Sides: none first, which an end needs.
-    const SIDES: [f64; 3] = [0.0, 1.0, -1.0];
-    /// The part of the accuracy that an offset is: as large as the deviation between may be.
-    const OFFSET: f64 = 0.985;
+    /// Offsets as parts of the largest: none first, which an end needs. Halves besides save no cubic more.
+    const OFFSETS: [f64; SIDES] = [0.0, 1.0, -1.0];
+    /// The part of the accuracy that an offset is: nearly as large as the deviation between may be, but not so large that
+    /// it alone looks like [`CLOSE`].
+    const LARGEST: f64 = 0.96;
     let plain = greedy(fitter, from, to);
     let shortest = shortest(fitter, from, to);
-    let offset = |side: usize| SIDES[side] * OFFSET * fitter.accuracy;
+    let offset = |side: usize| OFFSETS[side] * LARGEST * fitter.accuracy;
     // For each number of cubics and side the last cubic and the side that it comes from.
-    let mut steps: Vec<[Option<(Cubic, usize)>; 3]> = Vec::new();
-    let mut places: [Option<f64>; 3] = [Some(from), None, None];
+    let mut steps: Vec<[Option<(Cubic, usize)>; SIDES]> = Vec::new();
+    let mut places = [None; SIDES];
+    places[0] = Some(from);
     while steps.len() + 1 < plain.len() {
-        let mut step = [None; 3];
+        let mut step = [None; SIDES];
         let guess = plain[steps.len()].to - plain[steps.len()].from;
         for (before, place) in places.iter().enumerate() {
             let Some(place) = *place else { continue };
-            for after in 0..3 {
+            for after in 0..SIDES {
                 let fitter = Fitter { offsets: [offset(before), offset(after)], ..*fitter };
                 // The end itself is on the curve.
                 let limit = if after == 0 { to } else { to - shortest };
@@ -50,7 +55,8 @@ pub(super) fn with_free_joints(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<C
                 }
                 let guess = predict(&fitter, place, limit, guess);
                 let cubic = farthest(&fitter, place, limit, guess, shortest);
-                let is_best = step[after].is_none_or(|(best, _): (Cubic, usize)| cubic.to > best.to);
+                let is_best =
+                    step[after].is_none_or(|(best, _): (Cubic, usize)| cubic.to > best.to);
                 if cubic.error <= fitter.accuracy && is_best {
                     step[after] = Some((cubic, before));
                 }
@@ -69,7 +75,7 @@ pub(super) fn with_free_joints(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<C
 }
 
 /// The way to the end, on the curve.
-fn traced_back(steps: &[[Option<(Cubic, usize)>; 3]]) -> Vec<Cubic> {
+fn traced_back(steps: &[[Option<(Cubic, usize)>; SIDES]]) -> Vec<Cubic> {
     let mut cubics = Vec::with_capacity(steps.len());
     let mut side = 0;
     for step in steps.iter().rev() {
@@ -154,9 +160,8 @@ fn equal_errors(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
         let next = target * (excess / (whole + 1.0)).exp();
         target = if next > low && next < high { next } else { (low + high) / 2.0 };
     }
-    let certified: Option<Vec<Cubic>> = best.map(|pieces| {
-        pieces.iter().map(|candidate| fitter.certify(candidate)).collect()
-    });
+    let certified: Option<Vec<Cubic>> =
+        best.map(|pieces| pieces.iter().map(|candidate| fitter.certify(candidate)).collect());
     // Where the error isn't monotone, or the bound too far from the estimate, greedy stays.
     certified.filter(|c| c.iter().all(|c| c.error <= fitter.accuracy)).unwrap_or(cubics)
 }
@@ -188,13 +193,7 @@ fn reach_equally(
 }
 
 /// The piece from `from` whose error is the target, near a guess of its length.
-fn reach(
-    fitter: &Fitter<'_>,
-    from: f64,
-    to: f64,
-    target: f64,
-    guess: f64,
-) -> Option<Candidate> {
+fn reach(fitter: &Fitter<'_>, from: f64, to: f64, target: f64, guess: f64) -> Option<Candidate> {
     const MOST_STEPS: usize = 40;
     let rest = to - from;
     let excess = |length: f64| {
@@ -264,10 +263,8 @@ fn balanced(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
             break;
         }
     }
-    let even: Vec<Cubic> = places
-        .windows(2)
-        .map(|pair| fitter.certify(&fitter.try_piece(pair[0], pair[1])))
-        .collect();
+    let even: Vec<Cubic> =
+        places.windows(2).map(|pair| fitter.certify(&fitter.try_piece(pair[0], pair[1]))).collect();
     if even.iter().all(|cubic| cubic.error <= fitter.accuracy) { even } else { greedy }
 }
 
@@ -390,8 +387,7 @@ fn beyond(fitter: &Fitter<'_>, cubic: &Cubic, to: f64, shortest: f64) -> Option<
             let candidate = fitter.try_piece(from, from + longer);
             if candidate.error < fitter.accuracy {
                 let mut search = Search::new();
-                let next =
-                    longest_estimate(fitter, from, to, longer * STEP, shortest, &mut search);
+                let next = longest_estimate(fitter, from, to, longer * STEP, shortest, &mut search);
                 let best = if next.piece.to > candidate.piece.to { next } else { candidate };
                 let cubic = fitter.certify(&best);
                 return (cubic.error <= fitter.accuracy).then_some(cubic);

@@ -72,7 +72,8 @@ impl ParamCurveFit for Curve {
         for pair in self.segments().windows(2) {
             end += pair[0].length();
             let t = end / length;
-            if t > range.start && t < range.end && !super::joins_smoothly(&pair[0], &pair[1]) {
+            let is_inside = t > range.start + ROUNDING && t < range.end - ROUNDING;
+            if is_inside && !super::joins_smoothly(&pair[0], &pair[1]) {
                 return Some(t);
             }
         }
@@ -83,13 +84,22 @@ impl ParamCurveFit for Curve {
 /// Radians: 16 nodes integrate products of three coordinates and direction over this much of a turn to rounding.
 pub(super) const PANEL: f64 = 2.0;
 
+/// What arc lengths are off by after a fraction and back, as a part of the whole.
+const ROUNDING: f64 = 1e-13;
+
 /// The segment at an arc length, at a knot the one after it or, where `sign` is negative, before it.
 fn place(curve: &Curve, s: f64, sign: f64) -> Option<(&Segment, f64)> {
+    let rounding = ROUNDING * s.abs();
     let mut rest = s;
     for segment in curve.segments() {
         let length = segment.length();
-        if rest < length || (sign < 0.0 && rest <= length && length > 0.0) {
-            return Some((segment, rest));
+        let is_on = if sign < 0.0 {
+            length > 0.0 && rest <= length + rounding
+        } else {
+            rest < length - rounding
+        };
+        if is_on {
+            return Some((segment, rest.clamp(0.0, length)));
         }
         rest -= length;
     }

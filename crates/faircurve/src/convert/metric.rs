@@ -80,9 +80,8 @@ pub(super) fn angle_error(
     let mut heading = piece.end_tangents[0];
     let mut turned = 0.0;
     for panel in 0..panels {
-        let velocities: [Complex64; NODES] = std::array::from_fn(|i| {
-            cubic.velocity((panel as f64 + rule.nodes[i]) * width)
-        });
+        let velocities: [Complex64; NODES] =
+            std::array::from_fn(|i| cubic.velocity((panel as f64 + rule.nodes[i]) * width));
         let speeds = velocities.map(|v| v.norm() * width);
         for i in 0..NODES {
             if speeds[i] > 0.0 {

@@ -26,12 +26,7 @@ impl LocalCubic {
     }
 
     pub(super) fn of_points([p0, p1, p2, p3]: [Complex64; 4]) -> Self {
-        LocalCubic([
-            p0,
-            (p1 - p0) * 3.0,
-            (p2 - p1 * 2.0 + p0) * 3.0,
-            p3 - p0 + (p1 - p2) * 3.0,
-        ])
+        LocalCubic([p0, (p1 - p0) * 3.0, (p2 - p1 * 2.0 + p0) * 3.0, p3 - p0 + (p1 - p2) * 3.0])
     }
 
     pub(super) fn at(&self, t: f64) -> Complex64 {
@@ -379,9 +374,8 @@ fn exchange(piece: &Piece, fit: &Fit) -> Option<([f64; 2], f64)> {
     }
     // Once more at the true extrema, between the points of the grid.
     let offsets = reference.map(|g| vertex(&left, g).0);
-    let between = |values: &[f64; GRID]| {
-        std::array::from_fn(|i| parabola(values, reference[i], offsets[i]))
-    };
+    let between =
+        |values: &[f64; GRID]| std::array::from_fn(|i| parabola(values, reference[i], offsets[i]));
     let (rn, ra, rb) = (between(&n), between(&by_a), between(&by_b));
     let solved = Reference::new(rn, ra, rb);
     Some((solved.step(rn, ra, rb)?, solved.level.abs()))

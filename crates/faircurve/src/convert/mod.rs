@@ -14,7 +14,7 @@ mod single;
 #[cfg(test)]
 mod tests;
 
-use kurbo::BezPath;
+use kurbo::{BezPath, CubicBez};
 
 use crate::curve::Curve;
 use crate::segment::Segment;
@@ -115,12 +115,16 @@ fn append_stretch(result: &mut Conversion, segments: &[Segment], start: f64, opt
     let stretch = Stretch::new(segments);
     let finest = FINEST * stretch.length() + ROUNDINGS * certificate::rounding_of(segments);
     let accuracy = if options.accuracy > finest { options.accuracy } else { finest };
-    let fitter =
-        Fitter { stretch: &stretch, metric: options.metric, fit: options.fit, accuracy, offsets: [0.0; 2] };
+    let fitter = Fitter {
+        stretch: &stretch,
+        metric: options.metric,
+        fit: options.fit,
+        accuracy,
+        offsets: [0.0; 2],
+    };
     let places = stretch_places(&stretch, start, options);
-    let is_free = options.free_joints
-        && options.metric == Metric::Distance
-        && options.fit == Fit::Optimal;
+    let is_free =
+        options.free_joints && options.metric == Metric::Distance && options.fit == Fit::Optimal;
     let between = places.windows(2).flat_map(|pair| match is_free {
         true => cuts::with_free_joints(&fitter, pair[0], pair[1]),
         false => cuts::cut(&fitter, options.cuts, pair[0], pair[1]),
@@ -134,6 +138,53 @@ fn append_stretch(result: &mut Conversion, segments: &[Segment], start: f64, opt
     }
 }
 
+/// One cubic for a whole segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SingleFit {
+    /// The cubic, with the segment's ends and end tangents.
+    pub cubic: CubicBez,
+    /// Its error in the metric's units: for [`Metric::Distance`] an upper bound, else computed as accurately as the metric
+    /// says.
+    pub error: f64,
+}
+
+/// One cubic for a whole segment, however far from it (thesis sections 9.3 to 9.5). A straight
+/// line has arms of a third of its length.
+pub fn fit_single(segment: &Segment, metric: Metric, fit: Fit) -> SingleFit {
+    if segment.is_line() || !(segment.length() > 0.0) {
+        let (start, end) = (segment.start(), segment.end());
+        let cubic =
+            CubicBez::new(start, start.lerp(end, 1.0 / 3.0), start.lerp(end, 2.0 / 3.0), end);
+        return SingleFit { cubic, error: 0.0 };
+    }
+    let all = std::slice::from_ref(segment);
+    let stretch = Stretch::new(all);
+    let fitter =
+        Fitter { stretch: &stretch, metric, fit, accuracy: f64::INFINITY, offsets: [0.0; 2] };
+    let cubic = fitter.certify(&fitter.try_piece(0.0, stretch.length()));
+    SingleFit { cubic: fitter.place(&cubic), error: cubic.error }
+}
+
+/// All local minima of an angle metric among the cubics for a segment that have its ends, end tangents and arc
+/// length, by ascending share of the first arm in both (thesis section 9.5). As many as a scan in steps of 1/64 tells
+/// apart; empty for lines and for [`Metric::Distance`].
+pub fn local_minima(segment: &Segment, metric: Metric) -> Vec<SingleFit> {
+    if segment.is_line() || !(segment.length() > 0.0) || metric == Metric::Distance {
+        return Vec::new();
+    }
+    let stretch = Stretch::new(std::slice::from_ref(segment));
+    let piece = stretch.piece(0.0, stretch.length());
+    let (from, to) = (stretch.joint(0.0), stretch.joint(stretch.length()));
+    single::all_minima(&stretch, &piece, metric)
+        .into_iter()
+        .map(|minimum| {
+            let [a, b] = minimum.arms.map(|arm| arm * piece.half);
+            let (p1, p2) = (from.point + from.tangent * a, to.point - to.tangent * b);
+            let cubic = CubicBez::new(from.point, p1, p2, to.point);
+            SingleFit { cubic, error: minimum.error }
+        })
+        .collect()
+}
 
 /// Where a stretch must be cut, its ends included, ascending.
 fn stretch_places(stretch: &Stretch<'_>, start: f64, options: &Options) -> Vec<f64> {

@@ -54,11 +54,6 @@ impl<'a> Stretch<'a> {
         self.segments
     }
 
-    /// Arc lengths at which segments meet.
-    pub(super) fn knots(&self) -> &[f64] {
-        &self.ends[..self.ends.len() - 1]
-    }
-
     /// Where a segment starts.
     pub(super) fn start_of(&self, index: usize) -> f64 {
         if index == 0 { 0.0 } else { self.ends[index - 1] }

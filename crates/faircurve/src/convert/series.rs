@@ -57,8 +57,7 @@ impl Polynomial {
             sums[i] = [self.re[top], self.im[top], 0.0, 0.0];
         }
         for n in (0..TERMS / 2).rev() {
-            let next =
-                [self.re[2 * n], self.im[2 * n], self.re[2 * n + 1], self.im[2 * n + 1]];
+            let next = [self.re[2 * n], self.im[2 * n], self.re[2 * n + 1], self.im[2 * n + 1]];
             for i in 0..N {
                 let q = x[i] * x[i];
                 for part in 0..4 {
@@ -166,8 +165,7 @@ mod tests {
                 for x in [0.0, 0.3, 0.7, 1.0] {
                     let far = middle + x * width / 2.0;
                     let near = middle - x * width / 2.0;
-                    let exact =
-                        [far, near].map(|s| spiro_integral_between(k, middle, s) * turn);
+                    let exact = [far, near].map(|s| spiro_integral_between(k, middle, s) * turn);
                     for (value, exact) in series.z.pair(x).into_iter().zip(exact) {
                         let error = (value - exact).norm();
                         assert!(error <= series.tail + 4e-15, "{k:?} {x}: {error:e}");

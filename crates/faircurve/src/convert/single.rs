@@ -27,7 +27,11 @@ pub(super) fn arms_of_ratio(piece: &Piece, ratio: f64) -> [f64; 2] {
     // Secants, kept within a bracket; never more than 60 steps.
     for _ in 0..60 {
         let value = excess(total);
-        if value > 0.0 { high = total } else { low = total }
+        if value > 0.0 {
+            high = total
+        } else {
+            low = total
+        }
         let secant = total - value * (total - last) / (value - last_excess);
         (last, last_excess) = (total, value);
         let next = if secant > low && secant < high { secant } else { (low + high) / 2.0 };
@@ -42,7 +46,6 @@ pub(super) fn arms_of_ratio(piece: &Piece, ratio: f64) -> [f64; 2] {
 /// A local minimum of the error among cubics as long as the piece (section 9.5).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Minimum {
-    pub(super) ratio: f64,
     pub(super) arms: [f64; 2],
     pub(super) error: f64,
 }
@@ -149,7 +152,11 @@ fn minimum_near(
         }
         let value = error(next);
         if value < least {
-            if next < middle { (high, high_error) = (middle, least) } else { (low, low_error) = (middle, least) }
+            if next < middle {
+                (high, high_error) = (middle, least)
+            } else {
+                (low, low_error) = (middle, least)
+            }
             (middle, least) = (next, value);
         } else if next < middle {
             (low, low_error) = (next, value);
@@ -160,7 +167,7 @@ fn minimum_near(
             break;
         }
     }
-    Minimum { ratio: middle, arms: arms_of_ratio(piece, middle), error: least }
+    Minimum { arms: arms_of_ratio(piece, middle), error: least }
 }
 
 /// Arms at which the end curvatures are the curve's, the best of those found.
