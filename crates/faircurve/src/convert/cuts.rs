@@ -31,9 +31,8 @@ const SIDES: usize = 3;
 pub(super) fn with_free_joints(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
     /// Offsets as parts of the largest: none first, which an end needs. Halves besides save no cubic more.
     const OFFSETS: [f64; SIDES] = [0.0, 1.0, -1.0];
-    /// The part of the accuracy that an offset is: nearly as large as the deviation between may be, but not so large that
-    /// it alone looks like [`CLOSE`].
-    const LARGEST: f64 = 0.96;
+    /// The part of the accuracy that an offset is: as large as the deviation between may be, less rounding.
+    const LARGEST: f64 = 0.985;
     let plain = greedy(fitter, from, to);
     let shortest = shortest(fitter, from, to);
     let offset = |side: usize| OFFSETS[side] * LARGEST * fitter.accuracy;
@@ -413,6 +412,8 @@ fn longest_estimate(
     const RESOLUTION: f64 = 1.003;
     let rest = to - from;
     let target = AIM * fitter.accuracy;
+    // Beside an offset that is nearly as large, errors don't tell.
+    let close = if fitter.offsets == [0.0; 2] { CLOSE } else { f64::INFINITY };
     let mut length = guess.max(shortest).min(rest);
     // The trial before: length and error.
     let mut last: Option<(f64, f64)> = None;
@@ -421,7 +422,7 @@ fn longest_estimate(
         let (tried, error) = (candidate.piece.to - from, candidate.error);
         if error <= fitter.accuracy * 0.998 {
             search.fits = Some(candidate);
-            if error >= CLOSE * fitter.accuracy || candidate.piece.to >= to {
+            if error >= close * fitter.accuracy || candidate.piece.to >= to {
                 return candidate;
             }
         } else {
@@ -439,7 +440,8 @@ fn longest_estimate(
                 // Between the two, by the slope that they show, but not too near to either.
                 let span = (search.fails / low_length).ln();
                 let along = (target / low_error).ln() / (search.fails_by / low_error).ln();
-                let along = if along.is_finite() { along.clamp(0.1, 0.9) } else { 0.5 };
+                let is_telling = along.is_finite() && close.is_finite();
+                let along = if is_telling { along.clamp(0.1, 0.9) } else { 0.5 };
                 low_length * (along * span).exp()
             }
             fits => {
