@@ -101,7 +101,15 @@ const MOST_HALVINGS: u32 = 7;
 
 /// A bound of the distance between the cubic of these arms and its piece of the stretch, in user units;
 /// infinite where the cubic doesn't run along the piece.
-pub(super) fn distance_bound(stretch: &Stretch<'_>, piece: &Piece, fit: &Fit) -> f64 {
+///
+/// `is_hopeless`: the cubic is too far off to be worth a sharp bound.
+pub(super) fn distance_bound(
+    stretch: &Stretch<'_>,
+    piece: &Piece,
+    fit: &Fit,
+    is_hopeless: bool,
+) -> f64 {
+    let halvings = if is_hopeless { 1 } else { MOST_HALVINGS };
     if !fit.error.is_finite() {
         return f64::INFINITY;
     }
@@ -111,7 +119,7 @@ pub(super) fn distance_bound(stretch: &Stretch<'_>, piece: &Piece, fit: &Fit) ->
             let params = std::array::from_fn(|i| {
                 foot(&cubic, piece.places[i], piece.tangents[i], fit.params[i])
             });
-            bound_on_series(series, &cubic, [0.0, 1.0], params, MOST_HALVINGS)
+            bound_on_series(series, &cubic, [0.0, 1.0], params, halvings)
         }
         None => bound_over_segments(stretch, piece, &LocalCubic::with_arms(piece, fit.arms)),
     };

@@ -25,6 +25,9 @@ pub(super) struct Fitter<'a> {
 /// Pieces shorter than this part of a stretch that have no cubic with their end curvatures get the best one without.
 const SHORT: f64 = 1e-3;
 
+/// Cubics that are so many times farther off than allowed, which only the shortest pieces may be, get a cheap bound.
+const HOPELESS: f64 = 8.0;
+
 /// A cubic that may do.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
@@ -101,7 +104,9 @@ impl Fitter<'_> {
     pub(super) fn certify(&self, candidate: &Candidate) -> Cubic {
         let Candidate { piece, arms, error } = candidate;
         let lengths = arms.arms.map(|arm| arm * piece.half);
-        let mut bound = distance_bound(self.stretch, piece, arms);
+        let is_hopeless =
+            arms.error * piece.half > HOPELESS * self.accuracy && self.metric == Metric::Distance;
+        let mut bound = distance_bound(self.stretch, piece, arms, is_hopeless);
         if !bound.is_finite() {
             bound = farthest_apart(piece, lengths);
         }

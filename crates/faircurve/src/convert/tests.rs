@@ -413,7 +413,7 @@ fn the_bound_holds_on_random_pieces() {
             stretch: &stretch,
             metric: Metric::Distance,
             fit: Fit::Optimal,
-            accuracy: 1.0,
+            accuracy: f64::INFINITY,
             offsets: [0.0; 2],
         };
         let (a, b) = (random(), random());
@@ -484,9 +484,9 @@ fn slivers_hairpins_loops_and_many_knots_end() {
         [1e5, 1e5, 1e5, 1e5],
     ];
     for k in hard {
-        for size in [1e-50, 1e-9, 1.0, 1e9, 1e50] {
+        for size in [1e-50, 1.0, 1e50] {
             let curve = Curve::new(vec![shape(k, size)], false);
-            for accuracy in [1e-3 * size, 1e-9 * size, 1e-3] {
+            for accuracy in [1e-7 * size, 1e-3] {
                 let result = convert(&curve, &Options::new(accuracy));
                 assert!(result.path.is_finite() && result.bound.is_finite(), "{k:?} {size:e}");
             }
