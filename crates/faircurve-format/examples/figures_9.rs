@@ -4,7 +4,7 @@
 //! cargo run --release -p faircurve-format --example figures_9
 //! ```
 //!
-//! writes `docs/figures/figure-9-*.svg` and says how many cubics each level of figure 9.9 takes, for `examples/a.json` or the
+//! writes `docs/figures/figure-9-*.svg` and says how many cubics each level of figure 9.9 takes, for `examples/a.json` and the
 //! documents and fonts that are named; of a font, for glyph `a`.
 
 use std::fmt::Write as _;
@@ -48,14 +48,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let named: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
     let own = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/a.json"));
-    let files = if named.is_empty() { vec![own.to_owned()] } else { named };
-    for file in &files {
+    let files: Vec<PathBuf> = std::iter::once(own.to_owned()).chain(named).collect();
+    for (index, file) in files.iter().enumerate() {
         let curves = glyph_a(file)?;
         let levels = LEVELS.map(|(_, fit, cuts)| level(&curves, fit, cuts));
         let counts = levels.iter().map(|level| level.iter().map(|c| c.cubics).sum::<usize>());
         let counts: Vec<String> = counts.map(|count| count.to_string()).collect();
         writeln!(std::io::stdout(), "{}: {} cubics", file.display(), counts.join(", "))?;
-        if file == own {
+        if index == 0 {
             write("figure-9-9.svg", four_levels(&levels))?;
         }
     }
