@@ -140,13 +140,13 @@ pub(crate) fn true_error(curve: &Curve, path: &BezPath, points: usize) -> f64 {
 /// The foot of a perpendicular on a segment, by Newton's method, and its distance.
 fn foot(segment: &Segment, point: Point, guess: f64) -> (f64, f64) {
     let mut s = guess;
-    for _ in 0..6 {
+    for _ in 0..20 {
         let (tangent, off) = (Vec2::from_angle(segment.direction(s)), point - segment.point(s));
         let lever = (1.0 - segment.curvature(s) * tangent.cross(off)).max(0.2);
         let next = (s + off.dot(tangent) / lever).clamp(0.0, segment.length());
         let change = (next - s).abs();
         s = next;
-        if change < 1e-11 * segment.length() {
+        if change <= 1e-16 * segment.length() {
             break;
         }
     }

@@ -140,7 +140,9 @@ pub(super) fn rounding_of(segments: &[Segment]) -> f64 {
         let [start, end] = [segment.start(), segment.end()];
         let coordinate = start.x.abs().max(start.y.abs()).max(end.x.abs()).max(end.y.abs());
         let wound = 1.0 + 0.1 * wildness(segment.kappa());
-        size = size.max(coordinate + 2.0 * segment.length() * wound);
+        // A short chord places a long arc: its rounding is multiplied.
+        let lever = (segment.length() / segment.chord_length()).clamp(1.0, 1e12);
+        size = size.max(coordinate * lever + 2.0 * segment.length() * wound);
     }
     8.0 * f64::EPSILON * size
 }
