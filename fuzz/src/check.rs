@@ -1,6 +1,6 @@
 //! What holds of every solution and of its Béziers, whatever the numbers.
 
-use faircurve::convert::to_bezpath;
+use faircurve::convert::{Options, convert};
 use faircurve::kurbo::{BezPath, ParamCurve, PathEl, PathSeg, Point, Rect};
 use faircurve::tolerance::SOLVED;
 use faircurve::{Contour, Curve, CurvePoint, Place, Segment, Solution, Status};
@@ -147,28 +147,37 @@ fn report(contour: &Contour, solution: &Solution) {
     }
 }
 
-/// The path is finite, runs through the knots, is no longer than it may be, and keeps the accuracy.
-pub fn beziers(contour: &Contour, curve: &Curve, accuracy: f64) {
-    /// What the conversion says a segment may become at most.
-    const MOST_PIECES: usize = 4096;
-    let path = to_bezpath(curve, accuracy);
-    finite_path(&path);
+/// The path is finite, runs through the knots, is no longer than it may be, and is as near as its bound says; so
+/// are conversions of other kinds.
+pub fn beziers(contour: &Contour, curve: &Curve, options: &Options) {
+    /// What the conversion says a segment may become at most, and as much again for cuts that are asked for.
+    const MOST_PIECES: usize = 2 * 4096;
+    let conversion = convert(curve, options);
+    let path = &conversion.path;
+    finite_path(path);
+    finite("bound and error", [conversion.bound, conversion.error]);
     let elements = path.elements();
     assert!(elements.len() <= 2 + MOST_PIECES * contour.segment_count(), "{}", elements.len());
+    assert_eq!(
+        elements.len(),
+        1 + conversion.cubics + conversion.lines + usize::from(contour.closed)
+    );
     assert_eq!(elements.first(), Some(&PathEl::MoveTo(contour.knots[0].point)));
     assert_eq!(elements.last() == Some(&PathEl::ClosePath), contour.closed);
-    // The knots are among the ends, in order.
-    let mut ends = elements.iter().filter_map(PathEl::end_point);
-    let around = contour.closed.then_some(&contour.knots[0]);
-    let mut last = None;
-    for knot in contour.knots.iter().chain(around) {
-        // Segments of length 0 leave no trace.
-        if last != Some(knot.point) {
-            assert!(ends.any(|end| end == knot.point), "the path misses {}", knot.point);
-            last = Some(knot.point);
+    if !options.span_knots {
+        // The knots are among the ends, in order.
+        let mut ends = elements.iter().filter_map(PathEl::end_point);
+        let around = contour.closed.then_some(&contour.knots[0]);
+        let mut last = None;
+        for knot in contour.knots.iter().chain(around) {
+            // Segments of length 0 leave no trace.
+            if last != Some(knot.point) {
+                assert!(ends.any(|end| end == knot.point), "the path misses {}", knot.point);
+                last = Some(knot.point);
+            }
         }
     }
-    deviation(curve, &path, accuracy);
+    deviation(curve, path, conversion.bound);
 }
 
 /// All of a path's coordinates.
@@ -176,8 +185,8 @@ pub fn finite_path(path: &BezPath) {
     assert!(path.is_finite(), "the path has a number that isn't finite");
 }
 
-/// Béziers are as near to the curve as asked, twice that at most: the conversion samples, too.
-fn deviation(curve: &Curve, path: &BezPath, accuracy: f64) {
+/// Béziers are as near to the curve as the bound says.
+fn deviation(curve: &Curve, path: &BezPath, bound: f64) {
     /// Beyond this, finding nearest points takes longer than everything else.
     const MOST_CUBICS: usize = 24;
     let Some(bounds) = curve.bounding_box() else { return };
@@ -185,17 +194,20 @@ fn deviation(curve: &Curve, path: &BezPath, accuracy: f64) {
     let length = curve.length();
     let largest_kappa =
         curve.segments().iter().flat_map(Segment::kappa).fold(0.0f64, |a, k| a.max(k.abs()));
-    // What rounding and the limit on the number of pieces may spoil is not asked for.
-    let is_sensible = accuracy.is_finite() && accuracy >= 1e-8 * (size + length);
-    if !is_sensible || largest_kappa > 1e3 {
+    // Nearest points are no better than this.
+    let resolution = 1e-11 * (size + length);
+    if largest_kappa > 1e3 {
         return;
     }
     let is_cubic = |segment: &PathSeg| matches!(segment, PathSeg::Cubic(_));
     for cubic in path.segments().filter(is_cubic).take(MOST_CUBICS) {
         for t in [0.15, 0.5, 0.85] {
-            let nearest = curve.nearest(cubic.eval(t), 0.1 * accuracy);
+            let nearest = curve.nearest(cubic.eval(t), 0.01 * bound + resolution);
             let (_, _, off) = nearest.expect("a curve with a Bézier has segments");
-            assert!(off <= 2.0 * accuracy, "a Bézier is off by {off:e}, not {accuracy:e}");
+            assert!(
+                off <= 1.01 * bound + 2.0 * resolution,
+                "a Bézier is off by {off:e}, not {bound:e}"
+            );
         }
     }
 }

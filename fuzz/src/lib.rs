@@ -7,4 +7,4 @@ pub mod document;
 pub mod judge;
 mod problem;
 
-pub use problem::{Accuracy, Problem};
+pub use problem::{Accuracy, BezierOptions, Problem};

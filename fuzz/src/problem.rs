@@ -5,6 +5,7 @@ use std::fmt;
 use arbitrary::{Arbitrary, Result, Unstructured};
 use cpu_time::ThreadTime;
 use faircurve::catalog::{self, ENTRIES, ParamKind, Params};
+use faircurve::convert::{Cuts, Fit, Options};
 use faircurve::kurbo::{Point, Vec2};
 use faircurve::{Contour, Join, Knot, Solution, solve};
 
@@ -100,6 +101,31 @@ impl<'a> Arbitrary<'a> for Accuracy {
             0 => number(u)?,
             _ => 10f64.powi(2 - i32::from(u.arbitrary::<u8>()? % 16)),
         }))
+    }
+}
+
+/// A way to convert, with an accuracy.
+#[derive(Clone, Debug)]
+pub struct BezierOptions(
+    /// What to ask for.
+    pub Options,
+);
+
+impl<'a> Arbitrary<'a> for BezierOptions {
+    fn arbitrary(u: &mut Unstructured<'a>) -> Result<Self> {
+        let Accuracy(accuracy) = u.arbitrary()?;
+        let mut options = Options::new(accuracy);
+        let flags = u.arbitrary::<u8>()?;
+        options.span_knots = flags & 1 != 0;
+        options.free_joints = flags & 2 != 0;
+        options.at_extrema = flags & 4 != 0;
+        options.at_inflections = flags & 8 != 0;
+        // Mostly the default; the angle metrics and equal errors are slow under instrumentation.
+        if flags & 0x30 == 0x30 {
+            options.fit = u.choose(Fit::ALL)?.0;
+            options.cuts = *u.choose(&[Cuts::Greedy, Cuts::Halving, Cuts::HalvingBend])?;
+        }
+        Ok(BezierOptions(options))
     }
 }
 

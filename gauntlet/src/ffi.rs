@@ -16,6 +16,8 @@
 
 use std::ffi::{CStr, c_char, c_double, c_int};
 
+use faircurve::kurbo::BezPath;
+
 /// `spiro_cp`: a point and its letter.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -144,6 +146,61 @@ pub(crate) fn returns_one(points: &[SpiroCp]) -> bool {
     let mut context = BezCtx { moveto, lineto, quadto, curveto, mark_knot };
     // SAFETY: the list is marked at its end and ours to change; the context outlives the call.
     unsafe { TaggedSpiroCPsToBezier0(points.as_mut_ptr(), &mut context) == 1 }
+}
+
+/// A context that keeps what it receives: libspiro passes back the pointer to its first field.
+#[repr(C)]
+struct PathContext {
+    callbacks: BezCtx,
+    path: BezPath,
+}
+
+/// The Béziers of `TaggedSpiroCPsToBezier0`; `None` if it returns 0, and for lists that
+/// [`SolvedSegments::solve`] doesn't pass on.
+pub(crate) fn beziers(points: &[SpiroCp]) -> Option<BezPath> {
+    /// # Safety
+    /// `context` must be the first field of a [`PathContext`].
+    unsafe fn path<'a>(context: *mut BezCtx) -> &'a mut BezPath {
+        // SAFETY: by contract; the struct is `repr(C)`, so that its first field shares its address.
+        unsafe { &mut (*context.cast::<PathContext>()).path }
+    }
+    extern "C" fn moveto(context: *mut BezCtx, x: f64, y: f64, _: c_int) {
+        // SAFETY: the pointer that was passed in below.
+        unsafe { path(context) }.move_to((x, y));
+    }
+    extern "C" fn lineto(context: *mut BezCtx, x: f64, y: f64) {
+        // SAFETY: as above.
+        unsafe { path(context) }.line_to((x, y));
+    }
+    extern "C" fn quadto(context: *mut BezCtx, x1: f64, y1: f64, x: f64, y: f64) {
+        // SAFETY: as above.
+        unsafe { path(context) }.quad_to((x1, y1), (x, y));
+    }
+    extern "C" fn curveto(
+        context: *mut BezCtx,
+        x1: f64,
+        y1: f64,
+        x2: f64,
+        y2: f64,
+        x: f64,
+        y: f64,
+    ) {
+        // SAFETY: as above.
+        unsafe { path(context) }.curve_to((x1, y1), (x2, y2), (x, y));
+    }
+    extern "C" fn mark_knot(_: *mut BezCtx, _: c_int) {}
+    if !is_well_formed(points) {
+        return None;
+    }
+    let mut points = points.to_vec();
+    let callbacks = BezCtx { moveto, lineto, quadto, curveto, mark_knot };
+    let mut context = PathContext { callbacks, path: BezPath::new() };
+    // SAFETY: the list is marked at its end and ours to change; the context outlives the call, and the
+    // pointer is to the whole of it.
+    let done = unsafe {
+        TaggedSpiroCPsToBezier0(points.as_mut_ptr(), (&raw mut context).cast::<BezCtx>())
+    };
+    (done == 1).then_some(context.path)
 }
 
 #[cfg(test)]

@@ -2,6 +2,8 @@
 
 mod against_search;
 mod all;
+mod bezier;
+mod bezier_fonts;
 mod classes;
 #[cfg(libspiro)]
 mod ffi;
@@ -79,6 +81,26 @@ enum Command {
         #[arg(long, default_value_t = 200)]
         cases: usize,
     },
+    /// Béziers against kurbo's fitters on six curves
+    Bezier {
+        /// Rounds of the times; the fastest counts
+        #[arg(long, default_value_t = 40)]
+        rounds: usize,
+        /// Instead, this many random pairs of spirals, whose bounds must hold
+        #[arg(long, value_name = "CASES")]
+        random: Option<usize>,
+        /// Other spirals for every number
+        #[arg(long, default_value_t = 0)]
+        seed: u64,
+    },
+    /// Béziers of whole fonts against libspiro's and kurbo's
+    BezierFonts {
+        /// SFD files [default: those next to the repository]
+        files: Vec<PathBuf>,
+        /// Also kurbo's slow fitter
+        #[arg(long)]
+        opt: bool,
+    },
     /// Very many inputs that nobody would draw, through faircurve alone
     Hostile {
         /// Inputs in all
@@ -124,7 +146,10 @@ impl Command {
     fn is_alone(&self) -> bool {
         matches!(
             self,
-            Command::Hostile { .. } | Command::Search { .. } | Command::AgainstSearch { .. }
+            Command::Bezier { .. }
+                | Command::Hostile { .. }
+                | Command::Search { .. }
+                | Command::AgainstSearch { .. }
         )
     }
 }
@@ -179,6 +204,9 @@ fn run(arguments: &Arguments) -> Result<Report, Failure> {
             let folder = yardstick.clone().unwrap_or_else(yardstick::default_folder);
             against_search::run(&folder, filter, &fonts_input::read(&[]).unwrap_or_default())
         }
+        Command::Bezier { random: Some(cases), seed, .. } => Ok(bezier::random(*cases, *seed)),
+        Command::Bezier { rounds, .. } => Ok(bezier::run(*rounds)),
+        Command::BezierFonts { files, opt } => bezier_fonts::run(&fonts_input::read(files)?, *opt),
         Command::Hostile { cases, seed } => hostile::run(*cases, *seed),
     }
 }

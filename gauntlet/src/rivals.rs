@@ -2,8 +2,10 @@
 
 use std::borrow::Cow;
 
-use faircurve::kurbo::Vec2;
-use faircurve::{Contour, InputError, Join, Knot, Place, Solution, Spline, Status};
+use faircurve::kurbo::{BezPath, Vec2};
+use faircurve::{Contour, Curve, InputError, Join, Knot, Place, Solution, Spline, Status};
+#[cfg(libspiro)]
+use faircurve::{PolynomialSpiral, Segment};
 
 use crate::residual::{Piece, PlacedCurve, Residual};
 
@@ -269,6 +271,11 @@ impl LibspiroInput {
 
     /// Never called: there is no libspiro.
     pub(crate) fn solve_only(&self) {}
+
+    /// Never called either.
+    pub(crate) fn curve_and_beziers(&self, _: &Contour) -> Option<(Curve, BezPath)> {
+        None
+    }
 }
 
 #[cfg(libspiro)]
@@ -296,6 +303,24 @@ impl LibspiroInput {
     /// Solves and throws away the result: what is timed.
     pub(crate) fn solve_only(&self) {
         std::hint::black_box(crate::ffi::SolvedSegments::solve(&self.points));
+    }
+
+    /// libspiro's curve as one of ours, and its own Béziers of it.
+    pub(crate) fn curve_and_beziers(&self, contour: &Contour) -> Option<(Curve, BezPath)> {
+        let solved = crate::ffi::SolvedSegments::solve(&self.points)?;
+        let path = crate::ffi::beziers(&self.points)?;
+        let knots = &contour.knots;
+        let place = |(i, segment): (usize, &crate::ffi::SpiroSeg)| {
+            let (start, end) = (knots[i].point, knots[(i + 1) % knots.len()].point);
+            // Zeros are libspiro's lines.
+            if segment.ks == [0.0; 4] {
+                Segment::line(start, end)
+            } else {
+                Segment::spiral(start, end, PolynomialSpiral::new(segment.ks))
+            }
+        };
+        let segments = solved.segments().iter().take(contour.segment_count()).enumerate();
+        Some((Curve::new(segments.map(place).collect(), contour.closed), path))
     }
 
     fn solve(&self, contour: &Contour) -> Option<TheirCurve> {

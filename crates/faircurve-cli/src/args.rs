@@ -53,16 +53,45 @@ pub(crate) struct SolveArgs {
     #[arg(long = "param", value_name = "K=V", help_heading = "Solving")]
     pub(crate) params: Vec<String>,
 
-    /// Most that Béziers may deviate from the solved curves, in the drawing's units. Default:
-    /// 1/10000 of the glyph's larger side.
-    #[arg(long, value_name = "UNITS", allow_negative_numbers = true, help_heading = "Solving")]
-    pub(crate) accuracy: Option<String>,
-
     /// How long to search where a contour is hard, before something is relaxed: 1 is at most about
     /// 50 ms a contour, 20 a second. Counts work, so that the result doesn't depend on the machine.
     /// Default: 1.
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, help_heading = "Solving")]
     pub(crate) effort: Option<String>,
+
+    /// Most that Béziers may deviate from the solved curves, in the drawing's units (for --metric
+    /// sq-angle in their square root). Default: 1/10000 of the glyph's larger side.
+    #[arg(long, value_name = "UNITS", allow_negative_numbers = true, help_heading = "Béziers")]
+    pub(crate) accuracy: Option<String>,
+
+    /// How the deviation of one Bézier is measured: `distance` (the largest, proved), `abs-angle`,
+    /// `sq-angle` (directions, integrated along the curve). Default: distance.
+    #[arg(long, value_name = "METRIC", help_heading = "Béziers")]
+    pub(crate) metric: Option<String>,
+
+    /// How one Bézier is fitted: `optimal`, `end-curvature` (curvature is kept at the ends, too),
+    /// `equal-arms`, `arc-third` (the fastest). Default: optimal.
+    #[arg(long, value_name = "FIT", help_heading = "Béziers")]
+    pub(crate) fit: Option<String>,
+
+    /// Where Béziers begin and end between knots: `greedy` (as far as each reaches),
+    /// `equal-errors`, `balanced`, `halving`, `halving-bend`, and besides at `extrema`, at
+    /// `inflections`. Default: greedy.
+    #[arg(long, value_name = "CUTS", value_delimiter = ',', help_heading = "Béziers")]
+    pub(crate) cuts: Vec<String>,
+
+    /// Let a Bézier run through knots at which the curve is smooth. Else every knot is an end.
+    #[arg(long, help_heading = "Béziers")]
+    pub(crate) span_knots: bool,
+
+    /// Let ends of Béziers leave the curve, within the accuracy, where that needs fewer.
+    #[arg(long, help_heading = "Béziers")]
+    pub(crate) free_joints: bool,
+
+    /// Say on stderr, for each contour and in all, how many Béziers and lines there are, how far they are
+    /// from the curve at most (a proved bound), and how long the conversion took.
+    #[arg(long, help_heading = "Béziers")]
+    pub(crate) report: bool,
 
     /// Format of the input: json, csv or sfd. Default: by the file's extension; json for stdin.
     #[arg(long, value_name = "KIND", help_heading = "Choosing")]

@@ -4,6 +4,7 @@
 //! usage, nothing written.
 
 mod args;
+mod beziers;
 mod compare;
 mod failure;
 mod input;

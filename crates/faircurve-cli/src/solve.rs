@@ -7,6 +7,7 @@ use faircurve_format::SolvedGlyph;
 use rayon::prelude::*;
 
 use crate::args::{self, SolveArgs};
+use crate::beziers::{self, BezierOptions, Converted};
 use crate::failure::Failure;
 use crate::input;
 use crate::output::Output;
@@ -17,19 +18,16 @@ use crate::select::{self, Job};
 /// Read, select, solve, format, write, report.
 pub(crate) fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     let output = Output::new(args)?;
-    let (accuracy, effort) = (accuracy(args)?, effort(args)?);
+    let (beziers, effort) = (BezierOptions::new(args)?, effort(args)?);
     let sources = input::read(&args.inputs, args.from.as_deref())?;
     let jobs = select::select(sources, args)?;
-    let solved = solve(&jobs, accuracy, effort)?;
+    let (solved, converted) = solve(&jobs, &beziers, effort)?;
     let bytes = output.format(&solved)?;
     output.write(&bytes)?;
+    if args.report {
+        beziers::report(&jobs, &converted);
+    }
     Ok(report::report(&jobs, &solved, args.allow_relaxed))
-}
-
-fn accuracy(args: &SolveArgs) -> Result<Option<f64>, Failure> {
-    let allowed = |units: &f64| *units > 0.0 && units.is_finite();
-    let read = |text: &str| args::number("accuracy", text, "a number of units above 0", allowed);
-    args.accuracy.as_deref().map(read).transpose()
 }
 
 fn effort(args: &SolveArgs) -> Result<Effort, Failure> {
@@ -40,18 +38,26 @@ fn effort(args: &SolveArgs) -> Result<Effort, Failure> {
 }
 
 /// Solves every glyph, over all cores. The first input that is at fault fails the whole.
-fn solve(jobs: &[Job], accuracy: Option<f64>, effort: Effort) -> Result<Vec<SolvedGlyph>, Failure> {
+fn solve(
+    jobs: &[Job],
+    beziers: &BezierOptions,
+    effort: Effort,
+) -> Result<(Vec<SolvedGlyph>, Vec<Vec<Converted>>), Failure> {
     let progress = Progress::new(jobs.len());
     let solve = |job: &Job| {
-        let glyph = solve_glyph(job, accuracy, effort);
+        let glyph = solve_glyph(job, beziers, effort);
         progress.step();
         glyph
     };
-    let solved: Vec<Result<SolvedGlyph, Failure>> = jobs.par_iter().map(solve).collect();
+    let solved: Vec<Result<_, Failure>> = jobs.par_iter().map(solve).collect();
     solved.into_iter().collect()
 }
 
-fn solve_glyph(job: &Job, accuracy: Option<f64>, effort: Effort) -> Result<SolvedGlyph, Failure> {
+fn solve_glyph(
+    job: &Job,
+    beziers: &BezierOptions,
+    effort: Effort,
+) -> Result<(SolvedGlyph, Vec<Converted>), Failure> {
     let solve = |(index, (contour, spline)): (usize, &(_, Box<dyn faircurve::Spline>))| {
         let solution: Solution =
             faircurve::solve_with(contour, &**spline, effort).map_err(|error| {
@@ -60,5 +66,7 @@ fn solve_glyph(job: &Job, accuracy: Option<f64>, effort: Effort) -> Result<Solve
         Ok((spline.name().to_owned(), solution))
     };
     let contours: Result<Vec<_>, Failure> = job.contours.iter().enumerate().map(solve).collect();
-    Ok(SolvedGlyph::new(&job.name, &job.layer, contours?, accuracy))
+    let mut glyph = SolvedGlyph::unconverted(&job.name, &job.layer, contours?);
+    let converted = beziers.convert(&mut glyph);
+    Ok((glyph, converted))
 }

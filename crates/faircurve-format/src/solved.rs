@@ -42,16 +42,30 @@ impl SolvedGlyph {
         contours: impl IntoIterator<Item = (String, Solution)>,
         accuracy: Option<f64>,
     ) -> Self {
-        let mut glyph = SolvedGlyph { name: name.into(), layer: layer.into(), contours: vec![] };
-        let unconverted =
-            |(spline, solution)| SolvedContour { spline, solution, path: BezPath::new() };
-        glyph.contours = contours.into_iter().map(unconverted).collect();
-        let side = glyph.bounding_box().map_or(0.0, |bounds| bounds.width().max(bounds.height()));
-        let accuracy = accuracy.unwrap_or(DEFAULT_ACCURACY * side);
+        let mut glyph = SolvedGlyph::unconverted(name, layer, contours);
+        let accuracy = accuracy.unwrap_or(glyph.default_accuracy());
         for contour in &mut glyph.contours {
             contour.path = convert::to_bezpath(&contour.solution.curve, accuracy);
         }
         glyph
+    }
+
+    /// The same with empty paths, for conversions of another kind.
+    pub fn unconverted(
+        name: impl Into<String>,
+        layer: impl Into<String>,
+        contours: impl IntoIterator<Item = (String, Solution)>,
+    ) -> Self {
+        let unconverted =
+            |(spline, solution)| SolvedContour { spline, solution, path: BezPath::new() };
+        let contours = contours.into_iter().map(unconverted).collect();
+        SolvedGlyph { name: name.into(), layer: layer.into(), contours }
+    }
+
+    /// [`DEFAULT_ACCURACY`] in the units of the glyph.
+    pub fn default_accuracy(&self) -> f64 {
+        let side = self.bounding_box().map_or(0.0, |bounds| bounds.width().max(bounds.height()));
+        DEFAULT_ACCURACY * side
     }
 
     /// The smallest box that holds every curve; `None` for a glyph without contours.

@@ -1,0 +1,141 @@
+//! One cubic for one piece, by the metric and the kind of fit that are asked for.
+
+use kurbo::CubicBez;
+
+use super::certificate::distance_bound;
+use super::contact;
+use super::metric::angle_error;
+use super::minimax::{Fit as Arms, LocalCubic, first_params, measure, minimax};
+use super::options::{Fit, Metric};
+use super::piece::{Joint, Piece, Stretch};
+use super::single;
+
+/// Fits cubics to pieces of one stretch.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fitter<'a> {
+    pub(super) stretch: &'a Stretch<'a>,
+    pub(super) metric: Metric,
+    pub(super) fit: Fit,
+    /// What errors are held against, in the metric's units.
+    pub(super) accuracy: f64,
+    /// How far cubics start and end to the left of the curve, in user units.
+    pub(super) offsets: [f64; 2],
+}
+
+/// Pieces shorter than this part of a stretch that have no cubic with their end curvatures get the best one without.
+const SHORT: f64 = 1e-3;
+
+/// Cubics that are so many times farther off than allowed, which only the shortest pieces may be, get a cheap bound.
+const HOPELESS: f64 = 8.0;
+
+/// A cubic that may do.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub(super) piece: Piece,
+    pub(super) arms: Arms,
+    /// Its error in the metric's units; of distances an estimate.
+    pub(super) error: f64,
+}
+
+/// A cubic that is part of the result.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cubic {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    /// How far its ends are to the left of the curve.
+    pub(super) offsets: [f64; 2],
+    /// Arm lengths in user units.
+    pub(super) arms: [f64; 2],
+    /// Error in the metric's units; of distances the bound.
+    pub(super) error: f64,
+    /// A bound of the distance, in user units.
+    pub(super) bound: f64,
+}
+
+impl Fitter<'_> {
+    /// The best cubic for a piece.
+    pub(super) fn try_piece(&self, from: f64, to: f64) -> Candidate {
+        let piece = self.stretch.piece(from, to).with_offsets(self.offsets);
+        let measured = |arms: [f64; 2]| measure(&piece, arms, first_params(arms));
+        let arms = match (self.fit, self.metric) {
+            (Fit::ArcThird, _) => measured(single::ARC_THIRD),
+            (Fit::EqualArms, _) => measured(single::equal_arms(&piece)),
+            (Fit::EndCurvature, _) => {
+                let exists = single::with_end_curvatures(&piece);
+                let is_short = to - from < SHORT * self.stretch.length();
+                exists.unwrap_or_else(|| if is_short { minimax(&piece) } else { Arms::none() })
+            }
+            (Fit::Optimal, Metric::Distance) => minimax(&piece),
+            (Fit::Optimal, metric) => {
+                measured(single::least_angle_error(self.stretch, &piece, metric))
+            }
+        };
+        let error = match self.metric {
+            Metric::Distance => arms.error * piece.half,
+            metric => {
+                let cubic = LocalCubic::with_arms(&piece, arms.arms);
+                angle_error(self.stretch, &piece, &cubic, metric).unwrap_or(f64::INFINITY)
+            }
+        };
+        Candidate { piece, arms, error }
+    }
+
+    /// The power of its length with which the error of a piece grows, on short pieces.
+    pub(super) fn order(&self) -> f64 {
+        let order = match self.fit {
+            Fit::Optimal | Fit::EndCurvature => 6.0,
+            Fit::EqualArms => 5.0,
+            Fit::ArcThird => 4.0,
+        };
+        if self.metric == Metric::SquaredAngle { order - 0.5 } else { order }
+    }
+
+    /// What the sixth-order theory says of the error of the best cubic for a piece; `None` where the
+    /// piece isn't one spiral's, or the theory says nothing.
+    pub(super) fn law(&self, from: f64, to: f64) -> Option<f64> {
+        if self.metric != Metric::Distance || self.fit != Fit::Optimal {
+            return None;
+        }
+        let e6 = contact::expansions(self.stretch.curvature_about_middle(from, to)?).least()?;
+        Some(contact::MINIMAX_ERROR * e6 * (to - from) / 2.0)
+    }
+
+    /// The candidate with its bound.
+    pub(super) fn certify(&self, candidate: &Candidate) -> Cubic {
+        let Candidate { piece, arms, error } = candidate;
+        let lengths = arms.arms.map(|arm| arm * piece.half);
+        let is_hopeless =
+            arms.error * piece.half > HOPELESS * self.accuracy && self.metric == Metric::Distance;
+        let mut bound = distance_bound(self.stretch, piece, arms, is_hopeless);
+        if !bound.is_finite() {
+            bound = farthest_apart(piece, lengths);
+        }
+        let error = if self.metric == Metric::Distance { bound } else { *error };
+        let offsets = self.offsets;
+        Cubic { from: piece.from, to: piece.to, offsets, arms: lengths, error, bound }
+    }
+
+    /// The cubic in place.
+    pub(super) fn place(&self, cubic: &Cubic) -> CubicBez {
+        let [from, to] = [cubic.from, cubic.to].map(|s| self.stretch.joint(s));
+        let moved = |joint: &Joint, offset: f64| {
+            // Exact where there is nothing to move.
+            if offset == 0.0 { joint.point } else { joint.point + joint.tangent.turn_90() * offset }
+        };
+        let (start, end) = (moved(&from, cubic.offsets[0]), moved(&to, cubic.offsets[1]));
+        CubicBez::new(
+            start,
+            start + from.tangent * cubic.arms[0],
+            end - to.tangent * cubic.arms[1],
+            end,
+        )
+    }
+}
+
+/// How far apart a piece and a cubic on the same ends can be at most, whatever their shapes: both
+/// start in one place, the piece ends within its length of it, and control points lie within the longer arm
+/// of the ends.
+fn farthest_apart(piece: &Piece, arms: [f64; 2]) -> f64 {
+    let offset = piece.offsets[0].abs().max(piece.offsets[1].abs()) * piece.half;
+    4.0 * piece.half + arms[0].max(arms[1]) + offset
+}
