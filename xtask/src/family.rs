@@ -2,10 +2,16 @@
 //! given end angles.
 
 use faircurve::catalog::{self, Claim, ENTRIES, SplineInfo};
+use faircurve::families::bespoke::BespokeCubics;
 use faircurve::families::euler::EulerSpirals;
+use faircurve::families::hobby::{HobbyCubics, MockCurvature};
+use faircurve::families::kappa::BiParabolas;
+use faircurve::families::kurgla1::SiMecs;
+use faircurve::families::log_aesthetic::{self, LogAesthetic};
 use faircurve::frame::ChordAngles;
 use faircurve::kurbo::{Point, Vec2};
 use faircurve::two_param::curvature_map::{CurvatureMap, SegmentContext};
+use faircurve::two_param::generating::Cuts;
 use faircurve::two_param::shape::{SegmentEnds, SegmentShape};
 use faircurve::{Contour, Knot, Segment, Solution, Spline, Status};
 
@@ -20,6 +26,14 @@ impl Parts {
     fn of(name: &str) -> Option<Parts> {
         match name {
             "euler" => Parts::new(EulerSpirals, EulerSpirals),
+            "kurgla1" => Parts::new(SiMecs, SiMecs),
+            "hobby" => Parts::new(MockCurvature { tension: 1.0 }, HobbyCubics { tension: 1.0 }),
+            "bespoke" => Parts::new(BespokeCubics, BespokeCubics),
+            "kappa" => Parts::new(BiParabolas, BiParabolas),
+            "log-aesthetic" => {
+                let cuts = Cuts { curve: LogAesthetic::new(log_aesthetic::PREFERRED) };
+                Parts::new(cuts, cuts)
+            }
             _ => None,
         }
     }

@@ -210,13 +210,14 @@ impl<'a> Stretch<'a> {
     /// The largest turn from end to end of what a piece passes through, at least that of its ends.
     pub(super) fn bend(&self, from: f64, to: f64) -> f64 {
         /// Where curvature has no bound: more than most segments have.
-        const MOST: f64 = 2.0 * std::f64::consts::PI;
+        const UNKNOWN: f64 = 2.0 * std::f64::consts::PI;
         let mut bend = 0.0;
         for index in self.span(from, to) {
             let (segment, start) = (&self.segments[index], self.start_of(index));
             let a = (from - start).clamp(0.0, segment.length());
             let b = (to - start).clamp(0.0, segment.length());
-            bend += (segment.largest_curvature(a, b) * (b - a)).min(MOST);
+            let curvature = segment.largest_curvature(a, b);
+            bend += if curvature < f64::MAX { curvature * (b - a) } else { UNKNOWN };
         }
         bend
     }
