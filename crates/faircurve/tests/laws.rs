@@ -364,7 +364,8 @@ fn log_aesthetic_of_alpha_1_is_the_euler_spline() {
 fn what_claims_a_generating_curve_has_one_and_nothing_else_has() {
     let places: Vec<f64> = (0..30).map(|i| 4.0 * 0.85f64.powi(i)).collect();
     each_spline(|info, spline| {
-        if !info.claims.contains(&Claim::Parameters(2)) {
+        // Of κ-curves every piece is cut from the one parabola, but no segment is: two meet within it.
+        if !info.claims.contains(&Claim::Parameters(2)) || info.name == "kappa" {
             return;
         }
         let extracted = extract(&segments_of(spline, 1.5, 12), &places);

@@ -47,6 +47,9 @@ struct Panel {
 const MOST_TURN: f64 = 1.0;
 /// Arc lengths below this part of what lengths are known to are none: a panel at a cusp ends there.
 const NEGLIGIBLE: f64 = 0.01;
+/// More panels than any curve needs that is worth drawing (some 30 at each cusp): of what is nothing but
+/// rounding, there would be no end.
+const MOST_PANELS: usize = 2000;
 /// Larger curvatures (at cusps) are written as this.
 const LARGEST: f64 = 1e100;
 
@@ -61,7 +64,10 @@ impl<C: ParametricCurve> Measured<C> {
         let start = tangent(&measured.curve, 0.0, true).arg();
         let mut direction = start;
         measured.measure([0.0, 1.0], whole, noise, &mut direction, 50);
-        measured.length = measured.length.max(1.0);
+        // What isn't a number stays so: the segment will be a straight line.
+        if measured.length < 1.0 {
+            measured.length = 1.0;
+        }
         measured.breaks = measured.panels.iter().skip(1).map(|panel| panel.s).collect();
         measured
     }
@@ -83,7 +89,8 @@ impl<C: ParametricCurve> Measured<C> {
         let (left, right) = (self.arc(u, middle), self.arc(middle, to));
         let is_short = whole < NEGLIGIBLE * noise;
         let is_even = (left + right - whole).abs() <= noise;
-        if depth == 0 || is_short || (is_even && self.turn(u, to) < MOST_TURN) {
+        let is_enough = depth == 0 || self.panels.len() >= MOST_PANELS || !whole.is_finite();
+        if is_enough || is_short || (is_even && self.turn(u, to) < MOST_TURN) {
             self.panels.push(Panel { u, s: self.length, direction: *direction });
             self.length += left + right;
             let (a, b) = (tangent(&self.curve, u, true), tangent(&self.curve, to, false));

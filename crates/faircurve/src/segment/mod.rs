@@ -124,13 +124,13 @@ impl Segment {
     }
 
     /// A unit curve scaled and turned so that its chord is that from `start` to `end`; the straight
-    /// line if they coincide.
+    /// line if they coincide, or if the curve's length isn't finite.
     pub fn unit_curve(start: Point, end: Point, curve: Arc<dyn UnitCurve>) -> Self {
         let chord = end - start;
-        if chord == Vec2::ZERO {
+        let length = chord.hypot() * curve.length();
+        if chord == Vec2::ZERO || !length.is_finite() {
             return Segment::line(start, end);
         }
-        let length = chord.hypot() * curve.length();
         let to = curve.length();
         let piece = UnitPiece { curve, from: 0.0, to, backwards: false };
         Segment { start, end, shape: Shape::Unit(piece), length, heading: direction(chord) }

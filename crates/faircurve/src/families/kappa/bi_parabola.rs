@@ -138,7 +138,10 @@ impl SegmentShape for BiParabolas {
         let first = [leg(-ends.angles.theta0, before * found.alpha.cos()), leg(found.phi, before)];
         let second = [leg(found.phi, after), leg(ends.angles.theta1, after * found.beta.cos())];
         let joint = start + first[0] + first[1];
-        if joint == start {
+        if !joint.is_finite() {
+            // Tangents that no two parabolas have; the report names the knots that this breaks.
+            Segment::line(start, end)
+        } else if joint == start {
             parabola(start, end, second)
         } else if joint == end {
             parabola(start, end, first)
