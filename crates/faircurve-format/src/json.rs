@@ -368,7 +368,9 @@ impl<'a> Source<'a> {
             // Alone, so that an error is this parameter's.
             catalog::build(&choice.name, &Params::new().with(&name, given.clone())).map_err(
                 |error| match error {
-                    CatalogError::BadValue { .. } => refused(value, error),
+                    CatalogError::BadValue { .. } | CatalogError::BadText { .. } => {
+                        refused(value, error)
+                    }
                     _ => refused(name_token, error),
                 },
             )?;
