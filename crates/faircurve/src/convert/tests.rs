@@ -441,6 +441,41 @@ fn the_bound_holds_on_random_pieces() {
     assert!(sharp > cases * 8 / 10, "{sharp} of {cases} within 1 %");
 }
 
+/// An arc that nearly closes is placed by a chord that is much shorter than it: the circle that chord and
+/// turn define is another one than a rounded heading draws.
+#[test]
+fn the_bound_covers_what_a_short_chord_does_to_a_long_arc() {
+    use kurbo::ParamCurve;
+    let mut random = random(11);
+    let mut largest = 0.0f64;
+    for _ in 0..400 {
+        let missing = 10f64.powf(-7.5 * random()) * if random() < 0.5 { -1.0 } else { 1.0 };
+        let whole = std::f64::consts::TAU * (1.0 + 2.0 * random()).floor();
+        let turn = whole + missing;
+        let chord = Vec2::from_angle(6.3 * random()) * 10f64.powf(8.0 * random() - 4.0);
+        let radius = chord.hypot() / (2.0 * (turn / 2.0).sin().abs());
+        let shift = Vec2::from_angle(6.3 * random()) * radius * 10f64.powf(4.0 * random() - 2.0);
+        let (start, end) = (Point::ZERO + shift, Point::ZERO + shift + chord);
+        let arc = PolynomialSpiral::new([turn, 0.0, 0.0, 0.0]);
+        let curve = Curve::new(vec![Segment::spiral(start, end, arc)], false);
+        let result = convert(&curve, &Options::new(1e-14 * radius));
+        // The centre is left of the chord's middle by half the chord times the cotangent of half the turn.
+        let chord = end - start;
+        let to_centre = chord / 2.0 + chord.turn_90() / (2.0 * (turn / 2.0).tan());
+        let radius = chord.hypot() / (2.0 * (turn / 2.0).sin().abs());
+        for bezier in result.path.segments() {
+            for i in 0..=8 {
+                let from_centre = bezier.eval(f64::from(i) / 8.0) - start - to_centre;
+                let error = (from_centre.hypot() - radius).abs();
+                assert!(error <= result.bound, "{turn} {radius}: {error:e} {:e}", result.bound);
+                largest = largest.max(error / result.bound);
+            }
+        }
+    }
+    // Not so much room that the test would mean nothing.
+    assert!(largest > 0.02, "{largest}");
+}
+
 #[test]
 fn kurbo_s_fitters_run_and_moments_are_exact() {
     use kurbo::ParamCurveFit;
