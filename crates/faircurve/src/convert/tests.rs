@@ -476,6 +476,37 @@ fn the_bound_covers_what_a_short_chord_does_to_a_long_arc() {
     assert!(largest > 0.02, "{largest}");
 }
 
+/// Joints across which the tangent goes on, from long spirals to short ones and back.
+#[test]
+fn the_bound_holds_across_knots_of_very_different_lengths() {
+    let mut random = random(17);
+    for _ in 0..150 {
+        let size = 10f64.powf(6.0 * random() - 3.0);
+        let mut at = Point::ZERO + Vec2::new(random() - 0.5, random() - 0.5) * 10.0 * size;
+        let (mut heading, mut segments) = (6.3 * random(), Vec::new());
+        let mut shortest = f64::INFINITY;
+        for _ in 0..5 {
+            let k = [4.0, 6.0, 20.0, 60.0].map(|size| size * (random() - 0.5));
+            let spiral = PolynomialSpiral::new(k);
+            let angles = spiral.chord_angles();
+            let length = size * 10f64.powf(6.0 * random() - 6.0);
+            shortest = length.min(shortest);
+            let end = at + Vec2::from_angle(heading + angles.theta0) * length;
+            segments.push(Segment::spiral(at, end, spiral));
+            (at, heading) = (end, heading + angles.turning());
+        }
+        let curve = Curve::new(segments, false);
+        for accuracy in [1e-3 * size, 1e-7 * size] {
+            let options = Options { span_knots: true, ..Options::new(accuracy) };
+            let result = convert(&curve, &options);
+            let error = true_error(&curve, &result.path, 20);
+            let resolution = 2e-12 * curve.length();
+            assert!(error <= result.bound + resolution, "{error:e} {:e}", result.bound);
+            assert!(result.bound <= accuracy, "{accuracy:e} {:e}", result.bound);
+        }
+    }
+}
+
 #[test]
 fn kurbo_s_fitters_run_and_moments_are_exact() {
     use kurbo::ParamCurveFit;
