@@ -120,13 +120,15 @@ pub(crate) fn true_error(curve: &Curve, path: &BezPath, points: usize) -> f64 {
                 })
                 .min_by(|a, b| a.1.total_cmp(&b.1));
             let Some((mut at, mut distance)) = best else { continue };
-            // What Newton's method hasn't settled is searched.
+            // What Newton's method hasn't settled is searched. A search is as accurate as the distance at which it
+            // starts, which may be that of the far side: its foot is settled anew.
             if distance > worst {
                 let all = near.saturating_sub(1)..(near + 2).min(ends.len());
                 for i in all {
-                    let (local, searched) = segments[i].nearest(point, 1e-4 * distance);
-                    if searched < distance {
-                        (at, distance) = (start(i) + local, searched);
+                    let (searched, _) = segments[i].nearest(point, 1e-4 * distance);
+                    let (local, settled) = foot(&segments[i], point, searched);
+                    if settled < distance {
+                        (at, distance) = (start(i) + local, settled);
                     }
                 }
             }
@@ -318,4 +320,27 @@ pub(crate) fn random(cases: usize, seed: u64) -> Report {
     );
     let json = json!({ "cases": cases, "cubics": cubics, "over": over, "alarms": alarms });
     Report { text, json, notable: Vec::new(), alarms }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Arcs of more than a turn: a point beside the start is beside the end, too, and a guess of its arc
+    /// length that is off by one turn has its foot on the far side.
+    #[test]
+    fn true_errors_of_arcs_of_more_than_a_turn_are_settled() {
+        let cases = [
+            (10.570519861388778, (8795.160626055133, 18580.222693128562), 1.4898623651940402e-8),
+            (6.3354866444309845, (-1015140.2436696602, 257331.0450032741), 4.496929407658138e-5),
+        ];
+        for (turn, end, accuracy) in cases {
+            let start = Point::new(-1.2296871624566568, 1.3588808202571734);
+            let arc = PolynomialSpiral::new([-turn, 0.0, 0.0, 0.0]);
+            let curve = Curve::new(vec![Segment::spiral(start, end.into(), arc)], false);
+            let ours = convert(&curve, &Options::new(accuracy));
+            let error = true_error(&curve, &ours.path, 24);
+            assert!(error <= ours.bound, "{turn}: {error:e} {:e}", ours.bound);
+        }
+    }
 }

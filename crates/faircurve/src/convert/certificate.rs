@@ -41,7 +41,6 @@ use std::sync::LazyLock;
 
 use num_complex::Complex64;
 
-use crate::numeric::spiro_integral::wildness;
 use crate::segment::{Segment, Shape};
 
 use super::contact::dot;
@@ -126,25 +125,16 @@ pub(super) fn distance_bound(
     bound * piece.half + rounding(stretch, piece)
 }
 
-/// What rounding can add to a deviation: of the coordinates, of the curve's own points (1e-15 of a
-/// segment's length, more if it is wound up), and of the polynomials here.
+/// What rounding can add to a deviation: of the curve's own points, of arc length along the stretch,
+/// and of the polynomials here.
 pub(super) fn rounding(stretch: &Stretch<'_>, piece: &Piece) -> f64 {
     let of_segments = rounding_of(&stretch.segments()[stretch.span(piece.from, piece.to)]);
-    of_segments + 64.0 * f64::EPSILON * piece.half
+    of_segments + f64::EPSILON * (8.0 * piece.to + 64.0 * piece.half)
 }
 
 /// What rounding can add wherever these segments take part.
 pub(super) fn rounding_of(segments: &[Segment]) -> f64 {
-    let mut size = 0.0f64;
-    for segment in segments {
-        let [start, end] = [segment.start(), segment.end()];
-        let coordinate = start.x.abs().max(start.y.abs()).max(end.x.abs()).max(end.y.abs());
-        let wound = 1.0 + 0.1 * segment.kappa().map_or(0.0, wildness);
-        // A short chord places a long arc: its rounding is multiplied.
-        let lever = (segment.length() / segment.chord_length()).clamp(1.0, 1e12);
-        size = size.max(coordinate * lever + 2.0 * segment.length() * wound);
-    }
-    8.0 * f64::EPSILON * size
+    segments.iter().map(Segment::rounding).fold(0.0, f64::max)
 }
 
 /// Half-length units. `ends`: parameters of the cubic at x = ∓1; `params`: at the nodes inside.

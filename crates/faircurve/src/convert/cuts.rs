@@ -34,7 +34,6 @@ pub(super) fn with_free_joints(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<C
     /// The part of the accuracy that an offset is: as large as the deviation between may be, less rounding.
     const LARGEST: f64 = 0.985;
     let plain = greedy(fitter, from, to);
-    let shortest = shortest(fitter, from, to);
     let offset = |side: usize| OFFSETS[side] * LARGEST * fitter.accuracy;
     // For each number of cubics and side the last cubic and the side that it comes from.
     let mut steps: Vec<[Option<(Cubic, usize)>; SIDES]> = Vec::new();
@@ -45,6 +44,7 @@ pub(super) fn with_free_joints(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<C
         let guess = plain[steps.len()].to - plain[steps.len()].from;
         for (before, place) in places.iter().enumerate() {
             let Some(place) = *place else { continue };
+            let shortest = shortest(fitter, place, [from, to]);
             for after in 0..SIDES {
                 let fitter = Fitter { offsets: [offset(before), offset(after)], ..*fitter };
                 // The end itself is on the curve.
@@ -93,10 +93,11 @@ fn halving(
     to: f64,
     middle: impl Fn(f64, f64) -> f64,
 ) -> Vec<Cubic> {
-    let shortest = shortest(fitter, from, to);
+    let range = [from, to];
     let mut cubics = Vec::new();
     let mut stack = vec![(from, to)];
     while let Some((from, to)) = stack.pop() {
+        let shortest = shortest(fitter, from, range);
         let candidate = fitter.try_piece(from, to);
         // What is far off needs no certificate.
         let is_near = candidate.error <= 1.1 * fitter.accuracy || to - from <= shortest;
@@ -128,16 +129,14 @@ fn equal_errors(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
     if cubics.len() < 2 {
         return cubics;
     }
-    let lengths: Vec<f64> = cubics.iter().map(|cubic| cubic.to - cubic.from).collect();
-    // The logarithm by which the last piece's error exceeds a target.
-    let attempt = |target: f64| reach_equally(fitter, from, to, target, &lengths);
+    let mut lengths: Vec<f64> = cubics.iter().map(|cubic| cubic.to - cubic.from).collect();
     let (mut low, mut high) = (0.0f64, fitter.accuracy);
     let whole: f64 = cubics.len() as f64 - 1.0;
     let part = (cubics[cubics.len() - 1].error / fitter.accuracy).powf(1.0 / fitter.order());
     let mut target = fitter.accuracy * ((whole + part) / (whole + 1.0)).powf(fitter.order());
     let (mut best, mut best_excess): (Option<Vec<Candidate>>, f64) = (None, f64::INFINITY);
     for _ in 0..MOST_ROUNDS {
-        let Some((pieces, excess)) = attempt(target) else {
+        let Some((pieces, excess)) = reach_equally(fitter, from, to, target, &lengths) else {
             // Fewer pieces would reach the end.
             high = target;
             target = 0.5 * (low.max(0.5 * target) + high);
@@ -150,6 +149,8 @@ fn equal_errors(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
             high = target;
         }
         if excess.abs() < best_excess {
+            // The error isn't monotone: other lengths may have it, too. The next are to be near these.
+            lengths = pieces.iter().map(|piece| piece.piece.to - piece.piece.from).collect();
             (best_excess, best) = (excess.abs(), Some(pieces));
         }
         if excess.abs() < RESOLUTION || high - low <= RESOLUTION * high {
@@ -276,11 +277,11 @@ const CLOSE: f64 = 0.965;
 
 /// Cubics that each reach as far as the accuracy allows (section 9.6.4).
 pub(super) fn greedy(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
-    let shortest = shortest(fitter, from, to);
     let mut cubics: Vec<Cubic> = Vec::new();
     let mut here = from;
     let mut guess = first_guess(fitter, from, to);
     while here < to {
+        let shortest = shortest(fitter, here, [from, to]);
         let predicted = predict(fitter, here, to, guess);
         let cubic = farthest(fitter, here, to, predicted, shortest);
         let length = cubic.to - here;
@@ -293,11 +294,15 @@ pub(super) fn greedy(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
     cubics
 }
 
-/// Pieces are never shorter than this, so that the work is bounded: 4096 a segment.
-pub(super) fn shortest(fitter: &Fitter<'_>, from: f64, to: f64) -> f64 {
+/// What starts at `here` in a range is never cut shorter than this, so that the work is bounded: by 4097
+/// pieces a segment. No more than the rest of the segment, as the next one may be much shorter.
+pub(super) fn shortest(fitter: &Fitter<'_>, here: f64, range: [f64; 2]) -> f64 {
     const MOST_PIECES: f64 = 4096.0;
-    let segments = fitter.stretch.span(from, to).count();
-    (to - from) / (MOST_PIECES * segments as f64)
+    /// A rest below this part of the segment is rounding.
+    const LEAST_REST: f64 = 1e-9;
+    let (segment, local) = fitter.stretch.locate(here);
+    let length = segment.length().min(range[1] - range[0]);
+    (length / MOST_PIECES).min((segment.length() - local).max(LEAST_REST * length))
 }
 
 fn first_guess(fitter: &Fitter<'_>, from: f64, to: f64) -> f64 {

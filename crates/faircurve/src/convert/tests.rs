@@ -441,6 +441,72 @@ fn the_bound_holds_on_random_pieces() {
     assert!(sharp > cases * 8 / 10, "{sharp} of {cases} within 1 %");
 }
 
+/// An arc that nearly closes is placed by a chord that is much shorter than it: the circle that chord and
+/// turn define is another one than a rounded heading draws.
+#[test]
+fn the_bound_covers_what_a_short_chord_does_to_a_long_arc() {
+    use kurbo::ParamCurve;
+    let mut random = random(11);
+    let mut largest = 0.0f64;
+    for _ in 0..400 {
+        let missing = 10f64.powf(-7.5 * random()) * if random() < 0.5 { -1.0 } else { 1.0 };
+        let whole = std::f64::consts::TAU * (1.0 + 2.0 * random()).floor();
+        let turn = whole + missing;
+        let chord = Vec2::from_angle(6.3 * random()) * 10f64.powf(8.0 * random() - 4.0);
+        let radius = chord.hypot() / (2.0 * (turn / 2.0).sin().abs());
+        let shift = Vec2::from_angle(6.3 * random()) * radius * 10f64.powf(4.0 * random() - 2.0);
+        let (start, end) = (Point::ZERO + shift, Point::ZERO + shift + chord);
+        let arc = PolynomialSpiral::new([turn, 0.0, 0.0, 0.0]);
+        let curve = Curve::new(vec![Segment::spiral(start, end, arc)], false);
+        let result = convert(&curve, &Options::new(1e-14 * radius));
+        // The centre is left of the chord's middle by half the chord times the cotangent of half the turn.
+        let chord = end - start;
+        let to_centre = chord / 2.0 + chord.turn_90() / (2.0 * (turn / 2.0).tan());
+        let radius = chord.hypot() / (2.0 * (turn / 2.0).sin().abs());
+        for bezier in result.path.segments() {
+            for i in 0..=8 {
+                let from_centre = bezier.eval(f64::from(i) / 8.0) - start - to_centre;
+                let error = (from_centre.hypot() - radius).abs();
+                assert!(error <= result.bound, "{turn} {radius}: {error:e} {:e}", result.bound);
+                largest = largest.max(error / result.bound);
+            }
+        }
+    }
+    // Not so much room that the test would mean nothing.
+    assert!(largest > 0.02, "{largest}");
+}
+
+/// Joints across which the tangent goes on, from long spirals to short ones and back.
+#[test]
+fn the_bound_holds_across_knots_of_very_different_lengths() {
+    let mut random = random(17);
+    for _ in 0..150 {
+        let size = 10f64.powf(6.0 * random() - 3.0);
+        let mut at = Point::ZERO + Vec2::new(random() - 0.5, random() - 0.5) * 10.0 * size;
+        let (mut heading, mut segments) = (6.3 * random(), Vec::new());
+        let mut shortest = f64::INFINITY;
+        for _ in 0..5 {
+            let k = [4.0, 6.0, 20.0, 60.0].map(|size| size * (random() - 0.5));
+            let spiral = PolynomialSpiral::new(k);
+            let angles = spiral.chord_angles();
+            let length = size * 10f64.powf(6.0 * random() - 6.0);
+            shortest = length.min(shortest);
+            let end = at + Vec2::from_angle(heading + angles.theta0) * length;
+            segments.push(Segment::spiral(at, end, spiral));
+            (at, heading) = (end, heading + angles.turning());
+        }
+        let curve = Curve::new(segments, false);
+        for accuracy in [1e-3 * size, 1e-7 * size] {
+            let options = Options { span_knots: true, ..Options::new(accuracy) };
+            let result = convert(&curve, &options);
+            let error = true_error(&curve, &result.path, 20);
+            let resolution = 2e-12 * curve.length();
+            assert!(error <= result.bound + resolution, "{error:e} {:e}", result.bound);
+            assert!(result.bound <= accuracy, "{accuracy:e} {:e}", result.bound);
+        }
+    }
+}
+
 #[test]
 fn kurbo_s_fitters_run_and_moments_are_exact() {
     use kurbo::ParamCurveFit;

@@ -13,7 +13,7 @@ use num_complex::Complex64;
 
 use crate::frame::{direction, turning, wrap_angle};
 use crate::numeric::roots::{monotone_root, roots_between};
-use crate::numeric::spiro_integral::{angle, curvature_jet, spiro_integral_between};
+use crate::numeric::spiro_integral::{angle, curvature_jet, spiro_integral_between, wildness};
 
 pub use bezier::UnitBezier;
 pub use measured::{Measured, ParametricCurve};
@@ -66,7 +66,8 @@ impl UnitPiece {
 /// A shape placed between two points. Arc length runs from 0 at `start` to [`length`](Self::length).
 ///
 /// Ends are exact: the curve passes through `start` and `end` to the bit. Points between are
-/// accurate to about 1e-15 of the arc length plus rounding of the coordinates.
+/// accurate to about 1e-15 of the arc length, times arc length over chord, plus rounding of the
+/// coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segment {
     start: Point,
@@ -347,6 +348,31 @@ impl Segment {
                 member.point(s)
             }
         }
+    }
+
+    /// A bound of what rounding moves [`point`](Self::point) by, in user units.
+    ///
+    /// A spiral is placed by its integral I, of arc length 1, whose size is c = chord/length. With I
+    /// known to δ = ε(1 + w/10), w for its winding and the turns of its heading, scale and heading are
+    /// known to δ/c, so that a point of the arc, no farther from the nearer end than half its length, is
+    /// off by δ·length·(1 + 1/(2c)), and by the rounding of its coordinates. Eight times that is
+    /// allowed, and twice that of the length. A piece of a unit curve has the rounding of the whole.
+    pub(crate) fn rounding(&self) -> f64 {
+        /// No spiral is [placed](Self::spiral) on a shorter chord; a piece of one can have it.
+        const LONGEST_LEVER: f64 = 1e9;
+        let (length, winding) = match &self.shape {
+            Shape::Line => (0.0, 0.0),
+            Shape::Spiral(spiral) => (self.length, wildness(spiral.k)),
+            Shape::Unit(piece) => (piece.curve.length() * self.scale(piece), 0.0),
+            Shape::Chain(members) => {
+                return members.iter().map(Segment::rounding).fold(0.0, f64::max);
+            }
+        };
+        let wound = 1.0 + 0.1 * (winding + self.heading.abs());
+        let lever = (self.length / self.chord_length()).clamp(1.0, LONGEST_LEVER);
+        let [start, end] = [self.start, self.end];
+        let coordinate = start.x.abs().max(start.y.abs()).max(end.x.abs()).max(end.y.abs());
+        8.0 * f64::EPSILON * (coordinate + 2.0 * length * wound * lever)
     }
 
     /// Point, direction and curvature at arc length `s`, clamped to the segment.
