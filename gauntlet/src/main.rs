@@ -3,6 +3,7 @@
 mod against_search;
 mod all;
 mod classes;
+mod clock;
 #[cfg(libspiro)]
 mod ffi;
 mod fonts;

@@ -53,8 +53,8 @@ impl Effort {
     /// No search at all.
     pub const NONE: Effort = Effort(0.0);
 
-    /// Segments evaluated for one contour at the default effort; 250 ns each.
-    const EVALUATIONS: f64 = 200_000.0;
+    /// Segments evaluated for one contour at the default effort; 200 to 250 ns each.
+    const EVALUATIONS: f64 = 180_000.0;
 
     /// So many times the default; what isn't a number counts as 0, and more than 10⁵ (over an hour a
     /// contour) as that.
@@ -65,7 +65,7 @@ impl Effort {
     /// Segment evaluations for a run of so many knots. What a short run doesn't find early, it
     /// doesn't find late: of four random knots all are solved within 10,000.
     pub(crate) fn evaluations(self, knots: usize) -> usize {
-        const PER_PAIR: f64 = 750.0;
+        const PER_PAIR: f64 = 1000.0;
         let knots = knots as f64;
         (self.0 * Self::EVALUATIONS.min(PER_PAIR * knots * knots)) as usize
     }

@@ -1,5 +1,6 @@
 //! The spline of a four-parameter family: Table 7.1's conditions at every knot of a run.
 
+use super::budget::Budget;
 use super::family::FourParamFamily;
 use super::relax::relaxations;
 use super::strategy;
@@ -50,6 +51,15 @@ impl Solved {
     }
 }
 
+/// How a run is solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Means {
+    /// By plain Newton iteration alone.
+    Plain,
+    /// By a search, where that doesn't lead to a curve without loops.
+    Search,
+}
+
 impl<F: FourParamFamily> ConstraintSpline<F> {
     /// The spline of this family.
     pub fn new(family: F) -> Self {
@@ -58,30 +68,36 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
 
     /// Solves one run if plain Newton iteration does, without loops.
     pub fn solve_plainly(&self, run: &Run) -> Option<RunSolution> {
-        let solved = self.solve_smooth(run, &mut 0);
+        let solved = self.solve_smooth(run, Means::Plain, &mut Budget::new(0));
         solved.is_good().then(|| self.place(run, solved, Vec::new()))
     }
 
     /// Solves one run: as asked if possible, else relaxed at the knots where it isn't.
     pub fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution {
-        let mut budget = effort.evaluations(run.knots.len());
-        let solved = self.solve_smooth(run, &mut budget);
+        /// Share of the effort that is kept for relaxing.
+        const FOR_RELAXING: f64 = 0.25;
+        let mut search = Budget::new(effort.evaluations(run.knots.len()));
+        let mut rest = search.split_off(FOR_RELAXING);
+        let solved = self.solve_smooth(run, Means::Search, &mut search);
         if solved.is_solved() {
             return self.place(run, solved, Vec::new());
         }
-        let (solved, weaker) = self.relax(run, solved, effort);
+        rest.put_back(search);
+        let (solved, weaker) = self.relax(run, solved, rest);
         let relaxed = relaxations(run, &weaker);
         self.place(run, solved, relaxed)
     }
 
-    /// Solves a run without G1 knots, as well as the budget for searching allows.
-    fn solve_smooth(&self, run: &Run, budget: &mut usize) -> Solved {
+    /// Solves a run without G1 knots, as well as means and budget allow.
+    fn solve_smooth(&self, run: &Run, means: Means, budget: &mut Budget) -> Solved {
         let mut system = RunSystem::new(&self.family, run);
         let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
-        let plain = strategy::solve_plainly(&mut system, &mut matrix, || self.arcs(run));
-        let (outcome, stage) = match plain {
-            (outcome, true) => (outcome, Stage::Plain),
-            (outcome, false) => strategy::search(&mut system, &mut matrix, outcome, budget),
+        let (plain, is_good) =
+            strategy::solve_plainly(&mut system, &mut matrix, budget, || self.arcs(run));
+        let (outcome, stage) = if is_good || means == Means::Plain {
+            (plain, Stage::Plain)
+        } else {
+            strategy::search(&mut system, &mut matrix, plain, budget)
         };
         system.clean();
         Solved {
@@ -116,11 +132,11 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
     }
 
     /// Solves a run that may have G1 knots, at which it falls into stretches of their own.
-    pub(super) fn solve_split(&self, run: &Run, budget: &mut usize) -> Solved {
+    pub(super) fn solve_split(&self, run: &Run, means: Means, budget: &mut Budget) -> Solved {
         let n = run.knots.len();
         let is_split = |i: usize| is_interior(run, i) && run.knots[i].join == Join::G1;
         let mut bounds: Vec<usize> = (0..n).filter(|&i| is_split(i)).collect();
-        let Some(&first) = bounds.first() else { return self.solve_smooth(run, budget) };
+        let Some(&first) = bounds.first() else { return self.solve_smooth(run, means, budget) };
         if run.closed {
             bounds.push(first);
         } else {
@@ -141,7 +157,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
             for (end, knot) in ends.into_iter().filter(|&(_, knot)| is_split(knot)) {
                 stretch.knots[end].tangent = Some(self.g1_tangent(run, knot));
             }
-            let solved = self.solve_smooth(&stretch, budget);
+            let solved = self.solve_smooth(&stretch, means, budget);
             for (i, parameters) in solved.parameters.into_iter().enumerate() {
                 whole.parameters[(pair[0] + i) % n] = parameters;
             }

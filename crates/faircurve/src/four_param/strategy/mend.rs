@@ -16,7 +16,7 @@ impl Rescue {
         const BOOKKEEPING: usize = 16;
         let n = system.knots.len();
         let mut attempt = 0;
-        while self.budget > 0 && attempt < PATIENCE {
+        while !self.budget.is_spent() && attempt < PATIENCE {
             let stretches = bad_stretches(system, MARGINS[attempt % MARGINS.len()]);
             let Some(&(from, to)) =
                 stretches.get((attempt / MARGINS.len()) % stretches.len().max(1))
@@ -24,7 +24,7 @@ impl Rescue {
                 return;
             };
             attempt += 1;
-            self.spend(n / BOOKKEEPING);
+            self.budget.spend(n / BOOKKEEPING);
             let Some(window) = self.restart(system, from, to, attempt) else { continue };
             let (before, badness) = (system.state(), Badness::of(system));
             system.adopt(&window, from);
@@ -32,7 +32,7 @@ impl Rescue {
             if Badness::of(system) < badness {
                 attempt = 0;
             } else {
-                system.set_state(&before);
+                self.return_to(system, &before);
             }
         }
     }
@@ -51,10 +51,12 @@ impl Rescue {
         /// After so many attempts they are tried as well.
         const AT_A_LOSS: usize = 18;
         const SHARE_TURNED: f64 = 0.3;
-        /// One attempt in this many builds the stretch knot by knot instead.
+        /// One attempt in this many builds the stretch knot by knot instead. The whole run is grown
+        /// in its own stage.
         const GROWN: usize = 5;
         let mut window = if from == to { system.clone() } else { system.window(from, to) };
-        if attempt.is_multiple_of(GROWN) && from != to {
+        let is_whole = window.parameters.len() == system.parameters.len();
+        if attempt.is_multiple_of(GROWN) && !is_whole {
             self.grow_open(&mut window);
         } else {
             let amplitude = (attempt % 4) as f64 / 3.0;
@@ -65,18 +67,26 @@ impl Rescue {
                     turn_round(knot);
                 }
             }
-            for parameters in &mut window.parameters {
-                *parameters = self.seed(amplitude);
+            for segment in 0..window.parameters.len() {
+                self.seed(&mut window, segment, amplitude);
             }
         }
         let outcome = self.solve_window(&mut window);
         (outcome.residual <= UNSETTLED).then_some(window)
     }
 
-    /// Parameters of about the size that hard solutions have.
-    pub(super) fn seed(&mut self, amplitude: f64) -> [f64; 4] {
+    /// Gives a segment parameters of about the size that hard solutions have, with what is zero
+    /// there zero.
+    pub(super) fn seed<F: FourParamFamily>(
+        &mut self,
+        window: &mut RunSystem<'_, F>,
+        segment: usize,
+        amplitude: f64,
+    ) {
         const SIZES: [f64; 4] = [1.0, 4.0, 10.0, 40.0];
-        SIZES.map(|size| self.sense * amplitude * size * (2.0 * self.random.next() - 1.0))
+        window.parameters[segment] =
+            SIZES.map(|size| self.sense * amplitude * size * (2.0 * self.random.next() - 1.0));
+        window.enforce(segment);
     }
 
     /// Lets the surroundings of a mended stretch adapt to it.

@@ -24,11 +24,12 @@ mod mend;
 
 use std::f64::consts::TAU;
 
+use crate::four_param::budget::Budget;
 use crate::four_param::family::FourParamFamily;
 use crate::four_param::system::{RunSystem, State, SystemKnot};
 use crate::frame::wrap_angle;
 use crate::numeric::block_tridiagonal::BlockTridiagonal;
-use crate::numeric::newton::{Limits, Outcome, newton};
+use crate::numeric::newton::{Limits, Outcome, newton, newton_while};
 use crate::spline::Stage;
 use crate::tolerance::SOLVED;
 
@@ -41,6 +42,19 @@ const LONG: Limits = Limits { iterations: 30, patience: 12 };
 
 /// A stretch that settles does so in fewer.
 const WINDOW: Limits = Limits { iterations: 12, patience: 8 };
+
+/// Whether a stretch is on its way to settle after so many steps, and not there yet.
+fn is_promising(so_far: Outcome) -> bool {
+    /// Steps after which the residual of a stretch must be below 10, and then fall tenfold in four.
+    /// Of stretches whose restart was a success, hardly any would have been given up, of all work a
+    /// fifth is saved.
+    const GRACE: f64 = 6.0;
+    /// The whole run settles it further.
+    const SETTLED: f64 = 1e-6;
+    let steps = so_far.iterations as f64;
+    let bound = 10f64.powf(1.0 - (steps - GRACE) / 4.0);
+    so_far.residual > SETTLED && (steps < GRACE || so_far.residual <= bound)
+}
 
 /// Knots whose residual exceeds this haven't settled.
 pub(in crate::four_param) const UNSETTLED: f64 = 1e-4;
@@ -57,42 +71,46 @@ const REACH: usize = 10;
 pub(in crate::four_param) fn solve_plainly<F: FourParamFamily>(
     system: &mut RunSystem<'_, F>,
     matrix: &mut BlockTridiagonal<2>,
+    budget: &mut Budget,
     arcs: impl Fn() -> Vec<[f64; 4]>,
 ) -> (Outcome, bool) {
     // Three knots always lie on a circle, two too many times.
     if system.knots.len() <= 3
-        && let Some(round) = solve_round(system, matrix, arcs())
+        && let Some(round) = solve_round(system, matrix, budget, arcs())
     {
         return (round, true);
     }
     let plain = newton(system, matrix, PLAIN);
+    budget.spend(cost(system, plain.iterations));
     if plain.residual <= SOLVED && system.loops().next().is_none() {
         return (plain, true);
     }
-    match solve_round(system, matrix, arcs()) {
+    match solve_round(system, matrix, budget, arcs()) {
         Some(round) => (round, true),
         None => (plain, false),
     }
 }
 
-/// Stages 2 to 4, from the state that [`solve_plainly`] left; `budget` is what they may spend, in
-/// segment evaluations. Ends in the best state found.
+/// Stages 2 to 4, from the state that [`solve_plainly`] left. Ends in the best state found.
 pub(in crate::four_param) fn search<F: FourParamFamily>(
     system: &mut RunSystem<'_, F>,
     matrix: &mut BlockTridiagonal<2>,
     plain: Outcome,
-    budget: &mut usize,
+    budget: &mut Budget,
 ) -> (Outcome, Stage) {
-    if *budget == 0 {
+    // The last word costs something too.
+    let last_word = cost(system, PLAIN.iterations);
+    if budget.left() <= last_word {
         return (plain, Stage::Plain);
     }
     let plain_state = system.state();
     let mut rounded = system.rounded();
-    let mut rescue = Rescue::new(&rounded, *budget);
+    let mut rescue = Rescue::new(&rounded, budget.left() - last_word);
     let stage = rescue.run(&mut rounded, matrix);
-    *budget = rescue.budget;
     system.take_from_rounded(&rounded);
     let rescued = newton(system, matrix, PLAIN);
+    *budget = rescue.budget;
+    budget.put_back(Budget::new(last_word - cost(system, rescued.iterations)));
     let iterations = plain.iterations + rescue.iterations + rescued.iterations;
     if rescued.residual > SOLVED && plain.residual <= SOLVED {
         system.set_state(&plain_state);
@@ -105,17 +123,25 @@ pub(in crate::four_param) fn search<F: FourParamFamily>(
 fn solve_round<F: FourParamFamily>(
     system: &mut RunSystem<'_, F>,
     matrix: &mut BlockTridiagonal<2>,
+    budget: &mut Budget,
     arcs: Vec<[f64; 4]>,
 ) -> Option<Outcome> {
     let before = std::mem::replace(&mut system.parameters, arcs);
-    let round = newton(system, matrix, Limits { iterations: 0, patience: 0 });
-    if round.residual <= SOLVED {
-        Some(newton(system, matrix, PLAIN))
+    let mut round = newton(system, matrix, Limits { iterations: 0, patience: 0 });
+    let is_round = round.residual <= SOLVED;
+    if is_round {
+        round = newton(system, matrix, PLAIN);
     } else {
         system.parameters = before;
         system.evaluate();
-        None
     }
+    budget.spend(cost(system, 1 + round.iterations));
+    is_round.then_some(round)
+}
+
+/// Segment evaluations of Newton's method that has taken so many steps.
+fn cost<F: FourParamFamily>(system: &RunSystem<'_, F>, steps: usize) -> usize {
+    (steps + 1) * system.parameters.len()
 }
 
 /// What is wrong with a state; less is better.
@@ -156,7 +182,7 @@ impl Best {
 
 /// Stages 2 to 4 on one run.
 struct Rescue {
-    budget: usize,
+    budget: Budget,
     random: Random,
     /// The sign of the run's first turn: seeds mirror with the run.
     sense: f64,
@@ -167,7 +193,7 @@ impl Rescue {
     fn new<F: FourParamFamily>(system: &RunSystem<'_, F>, budget: usize) -> Self {
         let first = system.knots.iter().find(|knot| knot.turn.abs() > 1e-6);
         let sense = first.map_or(1.0, |knot| knot.turn.signum());
-        Rescue { budget, random: Random(0), sense, iterations: 0 }
+        Rescue { budget: Budget::new(budget), random: Random(0), sense, iterations: 0 }
     }
 
     /// Leaves the best state found in `system`, and says which stage it comes from.
@@ -192,25 +218,25 @@ impl Rescue {
                 return best.stage;
             }
         }
-        system.set_state(&best.state);
+        self.return_to(system, &best.state);
         if (best.badness.unsettled as f64) < FEW * n as f64 {
             self.mend(system);
         }
         let mut stage = Stage::Mended;
-        if n > 4 && self.budget > n * COST && Badness::of(system).unsettled > 0 {
+        if n > 4 && self.budget.left() > n * COST && Badness::of(system).unsettled > 0 {
             self.grow(system);
             let (grown, badness) = (system.state(), Badness::of(system));
             self.newton(system, matrix, Limits { iterations: 8, patience: 8 });
             if Badness::of(system) > badness {
-                system.set_state(&grown);
+                self.return_to(system, &grown);
             }
             stage = Stage::Grown;
         }
         loop {
             self.mend(system);
             self.settle(system, matrix, stage, &mut best);
-            system.set_state(&best.state);
-            if self.budget == 0 || best.is_good() {
+            self.return_to(system, &best.state);
+            if self.budget.is_spent() || best.is_good() {
                 return best.stage;
             }
         }
@@ -233,7 +259,8 @@ impl Rescue {
 
     fn solve_window<F: FourParamFamily>(&mut self, window: &mut RunSystem<'_, F>) -> Outcome {
         let mut matrix = BlockTridiagonal::new(window.knots.len(), window.is_closed());
-        self.newton(window, &mut matrix, WINDOW)
+        let outcome = newton_while(window, &mut matrix, WINDOW, is_promising);
+        self.count(window, outcome)
     }
 
     fn newton<F: FourParamFamily>(
@@ -243,13 +270,23 @@ impl Rescue {
         limits: Limits,
     ) -> Outcome {
         let outcome = newton(system, matrix, limits);
+        self.count(system, outcome)
+    }
+
+    fn count<F: FourParamFamily>(
+        &mut self,
+        system: &RunSystem<'_, F>,
+        outcome: Outcome,
+    ) -> Outcome {
         self.iterations += outcome.iterations;
-        self.spend((outcome.iterations + 1) * system.parameters.len());
+        self.budget.spend(cost(system, outcome.iterations));
         outcome
     }
 
-    fn spend(&mut self, work: usize) {
-        self.budget = self.budget.saturating_sub(work);
+    /// Comes back to a state.
+    fn return_to<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>, state: &State) {
+        system.set_state(state);
+        self.budget.spend(system.parameters.len());
     }
 }
 
