@@ -37,9 +37,9 @@ pub trait Spline: fmt::Debug + Send + Sync {
 /// How far to search where the straight way doesn't solve a contour as asked, before something is
 /// relaxed.
 ///
-/// Counted in work, not in time, so that the result is the same on every machine. The default is at
-/// most about 50 ms a contour on a machine of 2024, and less for short runs; nearly all contours need
-/// none of it.
+/// Counted in work, not in time, so that the result is the same on every machine; relaxing is part of
+/// it. The default is at most about 50 ms a contour on a machine of 2024, and less for short runs;
+/// nearly all contours need none of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort(f64);
 

@@ -12,6 +12,7 @@ impl Rescue {
         const PATIENCE: usize = 60;
         /// Knots on either side of a bad stretch that are restarted with it.
         const MARGINS: [usize; 6] = [1, 2, 3, 5, 8, 12];
+        const LESS: f64 = 0.98;
         /// Looking over this many knots costs about as much as evaluating one segment.
         const BOOKKEEPING: usize = 16;
         let n = system.knots.len();
@@ -26,11 +27,15 @@ impl Rescue {
             attempt += 1;
             self.budget.spend(n / BOOKKEEPING);
             let Some(window) = self.restart(system, from, to, attempt) else { continue };
-            let (before, badness) = (system.state(), Badness::of(system));
+            let (before, badness, bend) =
+                (system.state(), Badness::of(system), system.total_bend());
             system.adopt(&window, from);
             self.settle_around(system, from, to);
-            if Badness::of(system) < badness {
+            let now = Badness::of(system);
+            if now < badness {
                 attempt = 0;
+            } else if now == badness && now.unsettled == 0 && system.total_bend() < LESS * bend {
+                // Fewer loops weren't found, but less winding.
             } else {
                 self.return_to(system, &before);
             }

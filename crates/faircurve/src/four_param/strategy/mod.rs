@@ -22,6 +22,7 @@ mod bridge;
 mod grow;
 mod mend;
 
+use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
 use crate::four_param::budget::Budget;
@@ -171,6 +172,7 @@ struct Best {
     state: State,
     badness: Badness,
     residual: f64,
+    bend: f64,
     stage: Stage,
 }
 
@@ -210,8 +212,14 @@ impl Rescue {
             state: system.state(),
             badness: Badness::of(system),
             residual,
+            bend: system.total_bend(),
             stage: Stage::Plain,
         };
+        self.roam(system, matrix);
+        self.settle(system, matrix, Stage::Plain, &mut best);
+        if best.is_good() {
+            return best.stage;
+        }
         if n > 3 && self.bridge(system) {
             self.settle(system, matrix, Stage::Bridged, &mut best);
             if best.is_good() {
@@ -242,6 +250,21 @@ impl Rescue {
         }
     }
 
+    /// Newton's method set free, from straight segments: long steps, and at each knot the winding in which directions differ least. It bounces about, and where it lands, if
+    /// it does, is a matter of luck; but that is often a curve with a loop where there is none
+    /// without, and costs nearly nothing.
+    fn roam<F: FourParamFamily>(
+        &mut self,
+        system: &mut RunSystem<'_, F>,
+        matrix: &mut BlockTridiagonal<2>,
+    ) {
+        system.parameters.fill([0.0; 4]);
+        system.knots.iter_mut().for_each(|knot| knot.turn = wrap_angle(knot.turn));
+        system.free = true;
+        self.newton(system, matrix, LONG);
+        system.free = false;
+    }
+
     /// Lets the whole run settle, and keeps it if that is the best so far.
     fn settle<F: FourParamFamily>(
         &mut self,
@@ -252,8 +275,15 @@ impl Rescue {
     ) {
         let residual = self.newton(system, matrix, LONG).residual;
         let badness = Badness::of(system);
-        if (badness, residual) < (best.badness, best.residual) {
-            *best = Best { state: system.state(), badness, residual, stage };
+        let bend = system.total_bend();
+        let is_better = match badness.cmp(&best.badness) {
+            Ordering::Less => true,
+            Ordering::Equal if badness.unsettled == 0 => bend < best.bend,
+            Ordering::Equal => residual < best.residual,
+            Ordering::Greater => false,
+        };
+        if is_better {
+            *best = Best { state: system.state(), badness, residual, bend, stage };
         }
     }
 
