@@ -1,5 +1,6 @@
 //! Synthetic classes, ordinary and hard, through both programs.
 
+use std::ops::Range;
 use std::time::Instant;
 
 use faircurve::{Contour, catalog};
@@ -86,8 +87,8 @@ fn case_name(class: &Class, case: usize) -> String {
     format!("{} case {case}", class.name)
 }
 
-/// Runs both programs over `cases` contours of each class whose name contains `filter`.
-pub(crate) fn run(filter: &str, cases: usize) -> Result<Report, Failure> {
+/// Runs both programs over a range of contours of each class whose name contains `filter`.
+pub(crate) fn run(filter: &str, cases: Range<usize>) -> Result<Report, Failure> {
     let chosen: Vec<Class> =
         classes().into_iter().filter(|class| class.name.contains(filter)).collect();
     if chosen.is_empty() {
@@ -104,7 +105,7 @@ pub(crate) fn run(filter: &str, cases: usize) -> Result<Report, Failure> {
         progress.step(&class.name);
         let mut t =
             Tally { class: class.name.clone(), is_anchor: class.is_anchor, ..Tally::default() };
-        for case in 0..cases {
+        for case in cases.clone() {
             let contour = class.contour(case);
             t.cases += 1;
             let (their_seconds, theirs) = timed(|| Theirs::solve(&contour));

@@ -79,15 +79,29 @@ enum Command {
         /// Contours in each class
         #[arg(long, default_value_t = 200)]
         cases: usize,
+        /// The first of them
+        #[arg(long, default_value_t = 0, value_name = "CASE")]
+        from: usize,
     },
     /// Very many inputs that nobody would draw, through faircurve alone
     Hostile {
         /// Inputs in all
         #[arg(long, default_value_t = 1_000_000)]
         cases: usize,
+        /// The first of them
+        #[arg(long, default_value_t = 0, value_name = "CASE")]
+        from: usize,
+        /// Append the result to this file, a line of JSON, for `hostile-sum`
+        #[arg(long, value_name = "FILE")]
+        append: Option<PathBuf>,
         /// Other inputs for every number
         #[arg(long, default_value_t = 0)]
         seed: u64,
+    },
+    /// Adds up what runs of `hostile` have appended to a file
+    HostileSum {
+        /// The file
+        file: PathBuf,
     },
     /// The best curves that exist, by minutes of search
     Search {
@@ -125,7 +139,10 @@ impl Command {
     fn is_alone(&self) -> bool {
         matches!(
             self,
-            Command::Hostile { .. } | Command::Search { .. } | Command::AgainstSearch { .. }
+            Command::Hostile { .. }
+                | Command::HostileSum { .. }
+                | Command::Search { .. }
+                | Command::AgainstSearch { .. }
         )
     }
 }
@@ -165,7 +182,9 @@ fn run(arguments: &Arguments) -> Result<Report, Failure> {
         Command::Time { files, rounds, fonts_only } => {
             time::run(&fonts_input::read(files)?, *rounds as usize, !fonts_only)
         }
-        Command::Classes { filter, cases } => classes::run(filter, *cases),
+        Command::Classes { filter, cases, from } => {
+            classes::run(filter, *from..from.saturating_add(*cases))
+        }
         Command::Search { files, class, cases, seconds, seed, yardstick } => {
             let contours = match class {
                 Some(class) => classes::contours(class, *cases)?,
@@ -180,7 +199,14 @@ fn run(arguments: &Arguments) -> Result<Report, Failure> {
             let folder = yardstick.clone().unwrap_or_else(yardstick::default_folder);
             against_search::run(&folder, filter, &fonts_input::read(&[]).unwrap_or_default())
         }
-        Command::Hostile { cases, seed } => hostile::run(*cases, *seed),
+        Command::Hostile { cases, from, append, seed } => {
+            let (chunk, report) = hostile::run(*from..from.saturating_add(*cases), *seed)?;
+            if let Some(file) = append {
+                hostile::append(&chunk, file)?;
+            }
+            Ok(report)
+        }
+        Command::HostileSum { file } => hostile::sum(file),
     }
 }
 

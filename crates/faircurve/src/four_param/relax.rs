@@ -23,10 +23,9 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
     pub(super) fn relax(&self, run: &Run, first: Solved, budget: Budget) -> (Solved, Run) {
         /// Shares of the budget for a few knots and for many; the rest is for asking again.
         const SHARES: [f64; 2] = [0.4, 0.4];
+        let all = budget.left() as f64;
+        let [mut few, mut many] = SHARES.map(|share| Budget::new((all * share) as usize));
         let mut rest = budget;
-        let all = rest.left() as f64;
-        let share = |share: f64| Budget::new((all * share) as usize);
-        let (mut few, mut many) = (share(SHARES[0]), share(SHARES[1]));
         rest.spend(few.left() + many.left());
         let (mut last, mut weaker) = (first, run.clone());
         for join in [Join::G2, Join::G1] {

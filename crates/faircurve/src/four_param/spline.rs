@@ -76,14 +76,14 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
     pub fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution {
         /// Share of the effort that is kept for relaxing.
         const FOR_RELAXING: f64 = 0.25;
-        let mut search = Budget::new(effort.evaluations(run.knots.len()));
-        let mut rest = search.split_off(FOR_RELAXING);
-        let solved = self.solve_smooth(run, Means::Search, &mut search);
+        let mut budget = Budget::new(effort.evaluations(run.knots.len()));
+        budget.reserve(FOR_RELAXING);
+        let solved = self.solve_smooth(run, Means::Search, &mut budget);
         if solved.is_solved() {
             return self.place(run, solved, Vec::new());
         }
-        rest.put_back(search);
-        let (solved, weaker) = self.relax(run, solved, rest);
+        budget.release();
+        let (solved, weaker) = self.relax(run, solved, budget);
         let relaxed = relaxations(run, &weaker);
         self.place(run, solved, relaxed)
     }
@@ -200,4 +200,95 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
 
 pub(super) fn is_interior(run: &Run, i: usize) -> bool {
     run.closed || (i > 0 && i + 1 < run.knots.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use kurbo::Point;
+
+    use super::*;
+    use crate::families::spiro::{PolynomialSpirals, Spiro};
+    use crate::four_param::family::Response;
+    use crate::outline::{Contour, Knot};
+    use crate::plan::Plan;
+    use crate::segment::Segment;
+
+    /// Counts evaluations.
+    struct Counted<'a>(&'a Cell<usize>);
+
+    impl Counted<'_> {
+        fn count(&self) {
+            self.0.set(self.0.get() + 1);
+        }
+    }
+
+    impl FourParamFamily for Counted<'_> {
+        fn respond(&self, parameters: [f64; 4]) -> Response {
+            self.count();
+            PolynomialSpirals.respond(parameters)
+        }
+        fn respond_roughly(&self, parameters: [f64; 4]) -> Response {
+            self.count();
+            PolynomialSpirals.respond_roughly(parameters)
+        }
+        fn between_tangents(&self, theta0: f64, theta1: f64) -> [f64; 4] {
+            PolynomialSpirals.between_tangents(theta0, theta1)
+        }
+        fn between_ends(&self, ends: [f64; 4]) -> Vec<[f64; 4]> {
+            PolynomialSpirals.between_ends(ends)
+        }
+        fn shape(&self, start: Point, end: Point, parameters: [f64; 4]) -> Segment {
+            PolynomialSpirals.shape(start, end, parameters)
+        }
+        fn bend(&self, change: [f64; 4]) -> f64 {
+            PolynomialSpirals.bend(change)
+        }
+    }
+
+    /// Knots all over a square of 101 units, by a fixed sequence; the same everywhere.
+    fn scattered(count: usize, closed: bool, seed: usize) -> Contour {
+        let knots = (0..count).map(|i| {
+            let i = i + seed;
+            let (x, y) = ((i * i * 37 + i * 11) % 101, (i * i * i * 53 + i * 29) % 101);
+            Knot::new((x as f64, y as f64 + 1e-3 * i as f64)).join(Join::G4)
+        });
+        if closed { Contour::closed(knots) } else { Contour::open(knots) }
+    }
+
+    /// All work on a run, searching and relaxing, stays within its budget, but for plain solves: the
+    /// one before it, those that are made even when nothing is left (each round of relaxing makes
+    /// one), and by how much a single step may overspend.
+    #[test]
+    fn no_run_spends_more_than_its_budget() {
+        /// Evaluations a segment: so many plain solves of at most 20 each, and two steps of a search.
+        const BEYOND: usize = 14 * 20 + 2 * 50;
+        let mut most = 0.0f64;
+        for (count, effort) in
+            [(5, 1.0), (8, 1.0), (8, 0.01), (16, 1.0), (48, 1.0), (48, 0.0), (120, 1.0)]
+        {
+            for closed in [false, true] {
+                for seed in 0..3 {
+                    let contour = scattered(count, closed, 100 * seed);
+                    let plan = Plan::new(&contour, &Spiro).unwrap();
+                    for run in plan.runs() {
+                        let evaluations = Cell::new(0);
+                        let effort = Effort::times(effort);
+                        let budget = effort.evaluations(run.knots.len());
+                        let _ = ConstraintSpline::new(Counted(&evaluations)).solve_run(run, effort);
+                        let beyond = BEYOND * run.segment_count();
+                        let spent = evaluations.get();
+                        most = most.max(spent as f64 / budget.max(1) as f64);
+                        assert!(
+                            spent <= budget + beyond,
+                            "{count} {closed} {seed}: {spent} of {budget} + {beyond}"
+                        );
+                    }
+                }
+            }
+        }
+        // Some are so hard that they need all of it.
+        assert!(most > 0.9, "{most}");
+    }
 }

@@ -57,8 +57,6 @@ pub(super) struct RunSystem<'a, F> {
     closed: bool,
     /// Whether segments are evaluated roughly.
     rough: bool,
-    /// Whether steps may be long, and windings follow the segments instead of leading them.
-    pub free: bool,
 }
 
 impl<'a, F: FourParamFamily> RunSystem<'a, F> {
@@ -83,7 +81,6 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
             mismatch: vec![[0.0; 2]; n],
             closed: run.closed,
             rough: false,
-            free: false,
         }
     }
 
@@ -208,7 +205,6 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
             knots,
             closed: false,
             rough: self.rough,
-            free: false,
         }
     }
 
@@ -351,9 +347,6 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
         for i in 0..self.knots.len() {
             self.mismatch[i] = self.mismatch_at(i);
         }
-        if self.free {
-            self.unwind();
-        }
     }
 
     /// The sum over all segments of a bound of how far each turns from its middle, in radians.
@@ -428,7 +421,6 @@ impl<F> Clone for RunSystem<'_, F> {
             mismatch: self.mismatch.clone(),
             closed: self.closed,
             rough: self.rough,
-            free: self.free,
         }
     }
 }
@@ -501,9 +493,6 @@ impl<F: FourParamFamily> System<2> for RunSystem<'_, F> {
     fn advance(&mut self, step: &[[f64; 2]]) {
         /// Largest bend of a segment in one step, in radians. Anything from ½ to 4 does about as well.
         const CLAMP: f64 = 1.0;
-        /// The same where steps are free: what a segment reaches is still cheap to integrate.
-        const FREE_CLAMP: f64 = 20.0;
-        let clamp = if self.free { FREE_CLAMP } else { CLAMP };
         let n = self.knots.len();
         for segment in 0..self.parameters.len() {
             let (start, end) = (segment, (segment + 1) % n);
@@ -518,8 +507,8 @@ impl<F: FourParamFamily> System<2> for RunSystem<'_, F> {
             let mut change: [f64; 4] =
                 std::array::from_fn(|row| (0..4).map(|jet| by_jets[row][jet] * jets[jet]).sum());
             let bend = self.family.bend(change);
-            if bend > clamp {
-                change = change.map(|change| change * clamp / bend);
+            if bend > CLAMP {
+                change = change.map(|change| change * CLAMP / bend);
             }
             if change.iter().all(|change| change.is_finite()) {
                 (0..4).for_each(|row| self.parameters[segment][row] += change[row]);

@@ -87,8 +87,10 @@ pub fn spiro_moments(k: [f64; 4]) -> SpiroMoments {
     moments(k)
 }
 
-/// The largest wildness up to which each rule of 8, 12, 16, 24 and 32 nodes errs by at most 1e-7.
-const ROUGH: [f64; 5] = [5.7, 21.0, 34.0, 62.0, 89.0];
+/// The largest wildness up to which each rule of 8, 12, 16, 24 and 32 nodes errs by at most 1e-7 in
+/// every moment. Measured on 3000 random directions of k; k₃ alone is the hardest for the small
+/// rules, k₀ alone for the large ones.
+const ROUGH: [f64; 5] = [4.2, 18.0, 32.4, 58.2, 85.4];
 
 /// The same to about 1e-7, up to three times as fast: for a search, which asks only where to look.
 ///
@@ -254,7 +256,7 @@ mod tests {
                 let k = direction.map(|k| k * size);
                 let (rough, exact) = (rough_spiro_moments(k), spiro_moments(k));
                 for (rough, exact) in rough.0.iter().zip(exact.0) {
-                    assert!((rough - exact).norm_sqr() < 4e-7 * 4e-7, "{k:?}: {rough} {exact}");
+                    assert!((rough - exact).norm() < 1.1e-7, "{k:?}: {rough} {exact}");
                 }
             }
         }

@@ -1,5 +1,7 @@
 //! Mending: bad stretches are restarted alone, with their rim held.
 
+use std::ops::Range;
+
 use super::{Badness, REACH, Rescue, UNSETTLED, is_unsettled, turn_round};
 use crate::four_param::family::FourParamFamily;
 use crate::four_param::system::RunSystem;
@@ -12,6 +14,8 @@ impl Rescue {
         const PATIENCE: usize = 60;
         /// Knots on either side of a bad stretch that are restarted with it.
         const MARGINS: [usize; 6] = [1, 2, 3, 5, 8, 12];
+        /// A restart that leaves as many loops is kept if the run then bends less than so many times
+        /// what it did; less of a gain isn't worth an attempt.
         const LESS: f64 = 0.98;
         /// Looking over this many knots costs about as much as evaluating one segment.
         const BOOKKEEPING: usize = 16;
@@ -32,11 +36,11 @@ impl Rescue {
             system.adopt(&window, from);
             self.settle_around(system, from, to);
             let now = Badness::of(system);
+            let bends_less =
+                now == badness && now.unsettled == 0 && system.total_bend() < LESS * bend;
             if now < badness {
                 attempt = 0;
-            } else if now == badness && now.unsettled == 0 && system.total_bend() < LESS * bend {
-                // Fewer loops weren't found, but less winding.
-            } else {
+            } else if !bends_less {
                 self.return_to(system, &before);
             }
         }
@@ -59,9 +63,14 @@ impl Rescue {
         /// One attempt in this many builds the stretch knot by knot instead. The whole run is grown
         /// in its own stage.
         const GROWN: usize = 5;
+        /// One attempt in this many, where something hasn't settled, puts a loop into one segment.
+        /// Some runs have no curve without; those of mixed joins often.
+        const LOOPED: usize = 3;
         let mut window = if from == to { system.clone() } else { system.window(from, to) };
         let is_whole = window.parameters.len() == system.parameters.len();
-        if attempt.is_multiple_of(GROWN) && !is_whole {
+        if attempt % LOOPED == LOOPED - 1 && Badness::of(system).unsettled > 0 {
+            self.seed_loop(&mut window);
+        } else if attempt.is_multiple_of(GROWN) && !is_whole {
             self.grow_open(&mut window);
         } else {
             let amplitude = (attempt % 4) as f64 / 3.0;
@@ -92,6 +101,23 @@ impl Rescue {
         window.parameters[segment] =
             SIZES.map(|size| self.sense * amplitude * size * (2.0 * self.random.next() - 1.0));
         window.enforce(segment);
+    }
+
+    /// Seeds all segments and makes one of them, whichever it is, a loop; windings are those in which
+    /// directions then differ least.
+    fn seed_loop<F: FourParamFamily>(&mut self, window: &mut RunSystem<'_, F>) {
+        /// Curvatures of a loop of length 1: around 2π, at which the chord vanishes.
+        const CURVATURES: Range<f64> = 5.0..8.0;
+        for segment in 0..window.parameters.len() {
+            self.seed(window, segment, 1.0);
+        }
+        let looped = (self.random.next() * window.parameters.len() as f64) as usize;
+        let side = if self.random.next() < 0.5 { -self.sense } else { self.sense };
+        let width = CURVATURES.end - CURVATURES.start;
+        window.parameters[looped][0] = side * (CURVATURES.start + width * self.random.next());
+        window.evaluate();
+        self.budget.spend(window.parameters.len());
+        window.unwind();
     }
 
     /// Lets the surroundings of a mended stretch adapt to it.

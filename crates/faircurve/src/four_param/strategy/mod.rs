@@ -106,7 +106,8 @@ pub(in crate::four_param) fn search<F: FourParamFamily>(
     }
     let plain_state = system.state();
     let mut rounded = system.rounded();
-    let mut rescue = Rescue::new(&rounded, budget.left() - last_word);
+    budget.spend(last_word);
+    let mut rescue = Rescue::new(&rounded, std::mem::take(budget));
     let stage = rescue.run(&mut rounded, matrix);
     system.take_from_rounded(&rounded);
     let rescued = newton(system, matrix, PLAIN);
@@ -167,18 +168,45 @@ fn is_unsettled<F: FourParamFamily>(system: &RunSystem<'_, F>, knot: usize) -> b
     !(system.knot_residual(knot) <= UNSETTLED)
 }
 
+/// What orders states of which the best is kept; less is better.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Merit {
+    badness: Badness,
+    /// Largest over all knots.
+    residual: f64,
+    /// [`RunSystem::total_bend`].
+    bend: f64,
+}
+
+impl Merit {
+    /// By what is wrong; where that is the same, settled states by how much they bend, others by how
+    /// far they are from settling.
+    fn cmp(&self, other: &Merit) -> Ordering {
+        self.badness.cmp(&other.badness).then_with(|| {
+            if self.badness.unsettled == 0 {
+                self.bend.total_cmp(&other.bend)
+            } else {
+                self.residual.total_cmp(&other.residual)
+            }
+        })
+    }
+}
+
 /// The best state of the whole run so far.
 struct Best {
     state: State,
-    badness: Badness,
-    residual: f64,
-    bend: f64,
+    merit: Merit,
     stage: Stage,
 }
 
 impl Best {
+    fn of<F: FourParamFamily>(system: &RunSystem<'_, F>, residual: f64, stage: Stage) -> Best {
+        let merit = Merit { badness: Badness::of(system), residual, bend: system.total_bend() };
+        Best { state: system.state(), merit, stage }
+    }
+
     fn is_good(&self) -> bool {
-        self.residual <= SOLVED && self.badness.loops == 0
+        self.merit.residual <= SOLVED && self.merit.badness.loops == 0
     }
 }
 
@@ -192,13 +220,14 @@ struct Rescue {
 }
 
 impl Rescue {
-    fn new<F: FourParamFamily>(system: &RunSystem<'_, F>, budget: usize) -> Self {
+    fn new<F: FourParamFamily>(system: &RunSystem<'_, F>, budget: Budget) -> Self {
         let first = system.knots.iter().find(|knot| knot.turn.abs() > 1e-6);
         let sense = first.map_or(1.0, |knot| knot.turn.signum());
-        Rescue { budget: Budget::new(budget), random: Random(0), sense, iterations: 0 }
+        Rescue { budget, random: Random(0), sense, iterations: 0 }
     }
 
-    /// Leaves the best state found in `system`, and says which stage it comes from.
+    /// Leaves the best state found in `system`, and says which stage it comes from. Once the
+    /// run is solved, what is kept for relaxing serves to be rid of loops.
     fn run<F: FourParamFamily>(
         &mut self,
         system: &mut RunSystem<'_, F>,
@@ -208,18 +237,7 @@ impl Rescue {
         const COST: usize = 40;
         let n = system.knots.len();
         let residual = self.newton(system, matrix, LONG).residual;
-        let mut best = Best {
-            state: system.state(),
-            badness: Badness::of(system),
-            residual,
-            bend: system.total_bend(),
-            stage: Stage::Plain,
-        };
-        self.roam(system, matrix);
-        self.settle(system, matrix, Stage::Plain, &mut best);
-        if best.is_good() {
-            return best.stage;
-        }
+        let mut best = Best::of(system, residual, Stage::Plain);
         if n > 3 && self.bridge(system) {
             self.settle(system, matrix, Stage::Bridged, &mut best);
             if best.is_good() {
@@ -227,7 +245,7 @@ impl Rescue {
             }
         }
         self.return_to(system, &best.state);
-        if (best.badness.unsettled as f64) < FEW * n as f64 {
+        if (best.merit.badness.unsettled as f64) < FEW * n as f64 {
             self.mend(system);
         }
         let mut stage = Stage::Mended;
@@ -244,25 +262,15 @@ impl Rescue {
             self.mend(system);
             self.settle(system, matrix, stage, &mut best);
             self.return_to(system, &best.state);
-            if self.budget.is_spent() || best.is_good() {
+            if best.is_good() {
                 return best.stage;
             }
+            if self.budget.is_spent() {
+                if best.merit.residual > SOLVED || !self.budget.release() {
+                    return best.stage;
+                }
+            }
         }
-    }
-
-    /// Newton's method set free, from straight segments: long steps, and at each knot the winding in which directions differ least. It bounces about, and where it lands, if
-    /// it does, is a matter of luck; but that is often a curve with a loop where there is none
-    /// without, and costs nearly nothing.
-    fn roam<F: FourParamFamily>(
-        &mut self,
-        system: &mut RunSystem<'_, F>,
-        matrix: &mut BlockTridiagonal<2>,
-    ) {
-        system.parameters.fill([0.0; 4]);
-        system.knots.iter_mut().for_each(|knot| knot.turn = wrap_angle(knot.turn));
-        system.free = true;
-        self.newton(system, matrix, LONG);
-        system.free = false;
     }
 
     /// Lets the whole run settle, and keeps it if that is the best so far.
@@ -274,16 +282,9 @@ impl Rescue {
         best: &mut Best,
     ) {
         let residual = self.newton(system, matrix, LONG).residual;
-        let badness = Badness::of(system);
-        let bend = system.total_bend();
-        let is_better = match badness.cmp(&best.badness) {
-            Ordering::Less => true,
-            Ordering::Equal if badness.unsettled == 0 => bend < best.bend,
-            Ordering::Equal => residual < best.residual,
-            Ordering::Greater => false,
-        };
-        if is_better {
-            *best = Best { state: system.state(), badness, residual, bend, stage };
+        let now = Best::of(system, residual, stage);
+        if now.merit.cmp(&best.merit) == Ordering::Less {
+            *best = now;
         }
     }
 
@@ -337,5 +338,33 @@ impl Random {
         z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
         z ^= z >> 31;
         (z >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn merit(unsettled: usize, loops: usize, residual: f64, bend: f64) -> Merit {
+        Merit { badness: Badness { unsettled, loops }, residual, bend }
+    }
+
+    /// What is settled comes before what has fewer loops, and that before what bends less.
+    #[test]
+    fn states_are_ordered_by_what_is_wrong_then_by_bend_or_residual() {
+        let ordered = [
+            merit(0, 0, 1e-12, 9.0),
+            merit(0, 1, 1e-12, 3.0),
+            merit(0, 1, 1e-14, 4.0),
+            merit(0, 2, 1e-14, 1.0),
+            merit(1, 0, 1e-3, 8.0),
+            merit(1, 0, 2e-3, 1.0),
+            merit(1, 0, f64::NAN, 1.0),
+        ];
+        for (i, a) in ordered.iter().enumerate() {
+            for (j, b) in ordered.iter().enumerate() {
+                assert_eq!(a.cmp(b), i.cmp(&j), "{a:?} {b:?}");
+            }
+        }
     }
 }
