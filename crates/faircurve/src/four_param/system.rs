@@ -349,9 +349,14 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
         }
     }
 
-    /// The sum over all segments of a bound of how far each turns from its middle, in radians.
+    /// The sum of [`bend`](Self::bend) over all segments.
     pub(super) fn total_bend(&self) -> f64 {
-        self.parameters.iter().map(|parameters| self.family.bend(*parameters)).sum()
+        (0..self.parameters.len()).map(|segment| self.bend(segment)).sum()
+    }
+
+    /// A bound of how far a segment turns from its middle, in radians.
+    pub(super) fn bend(&self, segment: usize) -> f64 {
+        self.family.bend(self.parameters[segment])
     }
 
     fn mismatch_at(&self, i: usize) -> [f64; 2] {

@@ -7,6 +7,10 @@ use crate::four_param::family::FourParamFamily;
 use crate::four_param::system::RunSystem;
 use crate::frame::wrap_angle;
 
+/// A restart that leaves as many loops is kept if the run then bends less than so many times what
+/// it did; less of a gain isn't worth an attempt.
+const LESS: f64 = 0.98;
+
 impl Rescue {
     /// Restarts bad stretches until all are good or one has had its share of attempts.
     pub(super) fn mend<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>) {
@@ -14,9 +18,6 @@ impl Rescue {
         const PATIENCE: usize = 60;
         /// Knots on either side of a bad stretch that are restarted with it.
         const MARGINS: [usize; 6] = [1, 2, 3, 5, 8, 12];
-        /// A restart that leaves as many loops is kept if the run then bends less than so many times
-        /// what it did; less of a gain isn't worth an attempt.
-        const LESS: f64 = 0.98;
         /// Looking over this many knots costs about as much as evaluating one segment.
         const BOOKKEEPING: usize = 16;
         let n = system.knots.len();
@@ -41,6 +42,45 @@ impl Rescue {
             if now < badness {
                 attempt = 0;
             } else if !bends_less {
+                self.return_to(system, &before);
+            }
+        }
+    }
+
+    /// Restarts the surroundings of segments that bend much, and keeps what bends less: a search may
+    /// have come upon a curve that winds more than it must.
+    pub(super) fn straighten<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>) {
+        /// Bend of a segment below which there is nothing to gain, in radians: an arc of 230°.
+        const BENT: f64 = 2.0;
+        const ATTEMPTS: usize = 24;
+        /// Segments on either side that are restarted with it.
+        const MARGINS: [usize; 3] = [1, 2, 3];
+        let n = system.knots.len();
+        for attempt in 0..ATTEMPTS {
+            let mut bent: Vec<(f64, usize)> = (0..system.parameters.len())
+                .map(|segment| (system.bend(segment), segment))
+                .filter(|&(bend, _)| bend > BENT)
+                .collect();
+            bent.sort_by(|a, b| b.0.total_cmp(&a.0));
+            if bent.is_empty() || self.budget.is_spent() {
+                return;
+            }
+            let (_, segment) = bent[(attempt / MARGINS.len()) % bent.len()];
+            let margin = MARGINS[attempt % MARGINS.len()];
+            let (from, to) = match (2 * margin + 1 < n, system.is_closed()) {
+                (true, true) => ((segment + n - margin) % n, (segment + 1 + margin) % n),
+                (true, false) => {
+                    (segment.saturating_sub(margin), (segment + 1 + margin).min(n - 1))
+                }
+                (false, true) => (0, 0),
+                (false, false) => (0, n - 1),
+            };
+            let Some(window) = self.restart(system, from, to, attempt) else { continue };
+            let (before, badness, bend) =
+                (system.state(), Badness::of(system), system.total_bend());
+            system.adopt(&window, from);
+            self.settle_around(system, from, to);
+            if Badness::of(system) > badness || system.total_bend() >= LESS * bend {
                 self.return_to(system, &before);
             }
         }

@@ -263,6 +263,10 @@ impl Rescue {
             self.settle(system, matrix, stage, &mut best);
             self.return_to(system, &best.state);
             if best.is_good() {
+                let found_in = best.stage;
+                self.straighten(system);
+                self.settle(system, matrix, found_in, &mut best);
+                self.return_to(system, &best.state);
                 return best.stage;
             }
             if self.budget.is_spent() {
