@@ -11,6 +11,7 @@ mod fonts_input;
 mod generate;
 mod hostile;
 mod hostile_inputs;
+mod pictures;
 mod progress;
 mod report;
 mod residual;
@@ -123,6 +124,14 @@ enum Command {
         #[arg(long, value_name = "FOLDER")]
         yardstick: Option<PathBuf>,
     },
+    /// Draws hard contours, with captions
+    Pictures {
+        /// Where the pictures go
+        folder: PathBuf,
+        /// Contours of each class, of which the worst are drawn
+        #[arg(long, default_value_t = 20)]
+        cases: usize,
+    },
     /// faircurve against the best curves that the search has found
     AgainstSearch {
         /// Only contours whose place contains this
@@ -141,6 +150,7 @@ impl Command {
             self,
             Command::Hostile { .. }
                 | Command::HostileSum { .. }
+                | Command::Pictures { .. }
                 | Command::Search { .. }
                 | Command::AgainstSearch { .. }
         )
@@ -206,6 +216,7 @@ fn run(arguments: &Arguments) -> Result<Report, Failure> {
             }
             Ok(report)
         }
+        Command::Pictures { folder, cases } => pictures::run(folder, *cases),
         Command::HostileSum { file } => hostile::sum(file),
     }
 }

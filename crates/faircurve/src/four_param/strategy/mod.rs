@@ -269,10 +269,9 @@ impl Rescue {
                 self.return_to(system, &best.state);
                 return best.stage;
             }
-            if self.budget.is_spent() {
-                if best.merit.residual > SOLVED || !self.budget.release() {
-                    return best.stage;
-                }
+            let is_solved = best.merit.residual <= SOLVED;
+            if self.budget.is_spent() && !(is_solved && self.budget.release()) {
+                return best.stage;
             }
         }
     }
