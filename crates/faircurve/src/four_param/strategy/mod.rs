@@ -14,6 +14,8 @@
 //!    step adds one and lets the last few settle with a free end, in the few windings nearest to the
 //!    natural one. What is left is mended, and the whole run solved on from there.
 //!
+//! What stages 3 and 4 find is straightened in the end, where it winds more than it must.
+//!
 //! The search sees rounded numbers, so that it takes the same course however the drawing is moved,
 //! turned or scaled; the last word is Newton's, on the exact ones. It is deterministic: seeds are
 //! fixed, and the budget counts work, not time.
@@ -270,8 +272,11 @@ impl Rescue {
                 return best.stage;
             }
             let is_solved = best.merit.residual <= SOLVED;
-            if self.budget.is_spent() && !(is_solved && self.budget.release()) {
-                return best.stage;
+            if self.budget.is_spent() {
+                if !(is_solved && self.budget.release()) {
+                    return best.stage;
+                }
+                self.straighten(system);
             }
         }
     }
