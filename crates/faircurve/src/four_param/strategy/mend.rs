@@ -103,12 +103,14 @@ impl Rescue {
         /// One attempt in this many builds the stretch knot by knot instead. The whole run is grown
         /// in its own stage.
         const GROWN: usize = 5;
-        /// One attempt in this many, where something hasn't settled, puts a loop into one segment.
-        /// Some runs have no curve without; those of mixed joins often.
+        /// One attempt in this many, where something hasn't settled or loops already, puts a loop into
+        /// one segment. Some runs have no curve without, those of mixed joins often, and one loop may
+        /// be less than another.
         const LOOPED: usize = 3;
         let mut window = if from == to { system.clone() } else { system.window(from, to) };
         let is_whole = window.parameters.len() == system.parameters.len();
-        if attempt % LOOPED == LOOPED - 1 && Badness::of(system).unsettled > 0 {
+        let is_good = Badness::of(system) == Badness::NONE;
+        if attempt % LOOPED == LOOPED - 1 && !is_good {
             self.seed_loop(&mut window);
         } else if attempt.is_multiple_of(GROWN) && !is_whole {
             self.grow_open(&mut window);

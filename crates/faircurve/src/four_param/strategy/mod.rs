@@ -158,6 +158,8 @@ struct Badness {
 }
 
 impl Badness {
+    const NONE: Badness = Badness { unsettled: 0, loops: 0 };
+
     fn of<F: FourParamFamily>(system: &RunSystem<'_, F>) -> Self {
         Badness {
             unsettled: (0..system.knots.len()).filter(|&i| is_unsettled(system, i)).count(),
