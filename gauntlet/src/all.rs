@@ -26,11 +26,11 @@ pub(crate) fn run(font_contours: &[FontContour]) -> Result<Report, Failure> {
         ("time", &|| time::run(font_contours, ROUNDS, false)),
     ];
     let others: [Part<'_>; 3] = [
-        ("classes", &|| classes::run("", CASES)),
+        ("classes", &|| classes::run("", 0..CASES)),
         ("against-search", &|| {
             against_search::run(&yardstick::default_folder(), "", font_contours)
         }),
-        ("hostile", &|| hostile::run(HOSTILE, 0)),
+        ("hostile", &|| Ok(hostile::run(0..HOSTILE, 0)?.1)),
     ];
     let has_fonts = !font_contours.is_empty();
     let parts = about_fonts.iter().filter(|_| has_fonts).chain(&others);

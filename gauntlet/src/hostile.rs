@@ -1,18 +1,22 @@
 //! Very many inputs that nobody would draw, through faircurve alone: what must never happen, doesn't.
 
 use std::collections::BTreeMap;
+use std::io::Write as _;
+use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use faircurve::{InputError, Spline, catalog};
 use faircurve_format::{Document, SplineChoice};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use crate::Failure;
-use crate::hostile_inputs::{DISTRIBUTIONS, Input};
+use crate::clock::Clock;
+use crate::hostile_inputs::{DISTRIBUTIONS, Input, SPLINES};
 use crate::progress::Progress;
 use crate::report::{Report, percent, table, tiny};
 use crate::rivals::Ours;
@@ -55,13 +59,14 @@ impl Offence {
 }
 
 /// The counts of one distribution.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Tally {
     cases: usize,
     solved: usize,
     relaxed: usize,
     /// By the kind of the error.
-    refused: BTreeMap<&'static str, usize>,
+    refused: BTreeMap<String, usize>,
     /// Called solved, and isn't.
     falsehoods: usize,
     /// Relaxed, and what is said to hold instead doesn't.
@@ -83,7 +88,7 @@ impl Tally {
         self.solved += other.solved;
         self.relaxed += other.relaxed;
         for (kind, count) in &other.refused {
-            *self.refused.entry(kind).or_default() += count;
+            *self.refused.entry(kind.clone()).or_default() += count;
         }
         self.falsehoods += other.falsehoods;
         self.misreported += other.misreported;
@@ -117,15 +122,27 @@ struct Outcome {
 /// The splines of the catalogue, by name.
 type Splines = BTreeMap<&'static str, Box<dyn Spline>>;
 
-/// Runs `cases` inputs on all cores. The counts depend on `cases` and `seed` alone; times on the
-/// machine.
-pub(crate) fn run(cases: usize, seed: u64) -> Result<Report, Failure> {
-    let splines: Splines = catalog::ENTRIES
+/// What a run over a range of cases came to: a line of the file that [`append`] writes and [`sum`]
+/// reads.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Chunk {
+    seed: u64,
+    cases: Range<usize>,
+    /// By the distribution's name.
+    distributions: BTreeMap<String, Tally>,
+    alarms: Vec<String>,
+}
+
+/// Runs a range of inputs on all cores. The counts depend on the range and `seed` alone; times on
+/// the machine.
+pub(crate) fn run(cases: Range<usize>, seed: u64) -> Result<(Chunk, Report), Failure> {
+    let splines: Splines = SPLINES
         .iter()
-        .map(|info| Ok((info.name, catalog::spline(info.name)?)))
+        .map(|name| Ok((*name, catalog::spline(name)?)))
         .collect::<Result<_, catalog::CatalogError>>()
         .map_err(|error| Failure { message: error.to_string(), hint: error.hint() })?;
-    let mut outcome = without_panic_messages(|| on_all_cores(cases, seed, &splines));
+    let mut outcome = without_panic_messages(|| on_all_cores(cases.clone(), seed, &splines));
     for case in std::mem::take(&mut outcome.suspicious) {
         let seconds = timed_alone(&input(seed, case).0, &splines);
         if seconds > LIMIT {
@@ -134,7 +151,59 @@ pub(crate) fn run(cases: usize, seed: u64) -> Result<Report, Failure> {
         }
     }
     outcome.offences.sort();
-    Ok(report(cases, seed, &outcome))
+    let (alarms, notable) = named(seed, &outcome);
+    let names = DISTRIBUTIONS.iter().map(|distribution| distribution.name.to_owned());
+    let distributions = names.zip(outcome.tallies).collect();
+    let chunk = Chunk { seed, cases, distributions, alarms };
+    let report = Report { notable, ..report(&[&chunk]) };
+    Ok((chunk, report))
+}
+
+/// Appends a line to a file.
+///
+/// # Errors
+/// If it can't be written.
+pub(crate) fn append(chunk: &Chunk, file: &Path) -> Result<(), Failure> {
+    let write = || {
+        let line = format!("{}\n", serde_json::to_string(chunk)?);
+        let mut file = std::fs::OpenOptions::new().create(true).append(true).open(file)?;
+        file.write_all(line.as_bytes())
+    };
+    write().map_err(|error: std::io::Error| Failure {
+        message: format!("can't write {}: {error}", file.display()),
+        hint: "name a file that can be written".to_owned(),
+    })
+}
+
+/// Adds up what [`append`] has written: ranges of one seed that don't overlap.
+///
+/// # Errors
+/// If the file can't be read, or the ranges can't be added up.
+pub(crate) fn sum(file: &Path) -> Result<Report, Failure> {
+    let failure = |what: String| Failure {
+        message: format!("{}: {what}", file.display()),
+        hint: "name a file that `gauntlet hostile --append` has written".to_owned(),
+    };
+    let text = std::fs::read_to_string(file).map_err(|error| failure(error.to_string()))?;
+    let chunks = chunks(&text).map_err(failure)?;
+    Ok(report(&chunks.iter().collect::<Vec<_>>()))
+}
+
+/// The lines of a file, in the order of their cases; or why they can't be added up.
+fn chunks(text: &str) -> Result<Vec<Chunk>, String> {
+    let chunk =
+        |(i, line)| serde_json::from_str(line).map_err(|error| format!("line {}: {error}", i + 1));
+    let mut chunks: Vec<Chunk> = text.lines().enumerate().map(chunk).collect::<Result<_, _>>()?;
+    chunks.sort_by_key(|chunk| chunk.cases.start);
+    for pair in chunks.windows(2) {
+        if pair[0].seed != pair[1].seed {
+            return Err(format!("seeds {} and {} are mixed", pair[0].seed, pair[1].seed));
+        }
+        if pair[1].cases.start < pair[0].cases.end {
+            return Err(format!("case {} is there twice", pair[1].cases.start));
+        }
+    }
+    if chunks.is_empty() { Err("nothing in it".to_owned()) } else { Ok(chunks) }
 }
 
 /// The input of a case and its distribution's name.
@@ -152,10 +221,10 @@ fn without_panic_messages<T>(work: impl FnOnce() -> T) -> T {
     result
 }
 
-fn on_all_cores(cases: usize, seed: u64, splines: &Splines) -> Outcome {
+fn on_all_cores(cases: Range<usize>, seed: u64, splines: &Splines) -> Outcome {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let next = AtomicUsize::new(0);
-    let chunks = cases.div_ceil(CHUNK);
+    let chunks = cases.len().div_ceil(CHUNK);
     let progress = Mutex::new(Progress::new(chunks));
     let work = || {
         let mut outcome =
@@ -165,7 +234,8 @@ fn on_all_cores(cases: usize, seed: u64, splines: &Splines) -> Outcome {
             if chunk >= chunks {
                 return outcome;
             }
-            for case in chunk * CHUNK..((chunk + 1) * CHUNK).min(cases) {
+            let start = cases.start + chunk * CHUNK;
+            for case in start..(start + CHUNK).min(cases.end) {
                 try_case(seed, case, splines, &mut outcome);
             }
             if let Ok(mut progress) = progress.lock() {
@@ -213,7 +283,7 @@ fn try_case(seed: u64, case: usize, splines: &Splines, outcome: &mut Outcome) {
     let solution = match solved {
         Ok(Ok(solution)) => solution,
         Ok(Err(error)) => {
-            *tally.refused.entry(kind(&error)).or_default() += 1;
+            *tally.refused.entry(kind(&error).to_owned()).or_default() += 1;
             return;
         }
         Err(_) => {
@@ -255,13 +325,13 @@ fn try_case(seed: u64, case: usize, splines: &Splines, outcome: &mut Outcome) {
     }
 }
 
-/// The best of some solves, in seconds.
+/// The best of some solves, in seconds without what other programs took.
 fn timed_alone(input: &Input, splines: &Splines) -> f64 {
     const TIMES: usize = 3;
     let solve = |_| {
-        let clock = Instant::now();
+        let clock = Clock::start();
         let _ = std::hint::black_box(faircurve::solve(&input.contour, &*splines[input.spline]));
-        clock.elapsed().as_secs_f64()
+        clock.seconds()
     };
     (0..TIMES).map(solve).fold(f64::INFINITY, f64::min)
 }
@@ -280,40 +350,9 @@ fn kind(error: &InputError) -> &'static str {
     }
 }
 
-fn report(cases: usize, seed: u64, outcome: &Outcome) -> Report {
-    let mut all = Tally::default();
-    outcome.tallies.iter().for_each(|tally| all.add(tally));
-    let names = DISTRIBUTIONS.iter().map(|distribution| distribution.name);
-    let rows = names.clone().zip(&outcome.tallies).chain([("all", &all)]).map(row).collect();
-    let header = [
-        "distribution",
-        "cases",
-        "solved",
-        "relaxed",
-        "refused",
-        "false",
-        "misreported",
-        "not finite",
-        "panics",
-        "over time",
-        "residual",
-        "mean ms",
-        "slowest ms",
-        "case",
-    ];
-    let refusals = all.refused.iter().map(|(kind, count)| [(*kind).to_owned(), count.to_string()]);
-    let text = [
-        table(header, rows),
-        format!(
-            "\nPer cent of the cases. false: called solved, and isn't; misreported: relaxed, and what is said \
-             to hold instead doesn't. ms:\nwall time of the solve beside the other threads; over time: \
-             above {} ms and, alone, above {} ms. Seed {seed}.\n\n",
-            1e3 * SUSPICIOUS,
-            1e3 * LIMIT,
-        ),
-        table(["refused as", "cases"], refusals.collect()),
-    ]
-    .concat();
+/// What went wrong, by name, and the inputs that it went wrong on; and the slowest of each
+/// distribution.
+fn named(seed: u64, outcome: &Outcome) -> (Vec<String>, Vec<(String, Document)>) {
     let mut named: BTreeMap<Offence, usize> = BTreeMap::new();
     let (mut alarms, mut notable) = (Vec::new(), Vec::new());
     for (offence, case, what) in &outcome.offences {
@@ -337,9 +376,52 @@ fn report(cases: usize, seed: u64, outcome: &Outcome) -> Report {
         let name = format!("slowest {} case {case}", distribution.name);
         notable.push((name, document(distribution.input(seed, case))));
     }
-    let by_name: BTreeMap<&str, &Tally> = names.zip(&outcome.tallies).collect();
-    let json = json!({ "cases": cases, "seed": seed, "distributions": by_name, "alarms": alarms });
-    Report { text, json, notable, alarms }
+    (alarms, notable)
+}
+
+/// The sum of some chunks of one seed.
+fn report(chunks: &[&Chunk]) -> Report {
+    let mut by_name: BTreeMap<&str, Tally> = BTreeMap::new();
+    let mut all = Tally::default();
+    for (name, tally) in chunks.iter().flat_map(|chunk| &chunk.distributions) {
+        by_name.entry(name).or_default().add(tally);
+        all.add(tally);
+    }
+    let rows = by_name.iter().map(|(name, tally)| (*name, tally)).chain([("all", &all)]).map(row);
+    let header = [
+        "distribution",
+        "cases",
+        "solved",
+        "relaxed",
+        "refused",
+        "false",
+        "misreported",
+        "not finite",
+        "panics",
+        "over time",
+        "residual",
+        "mean ms",
+        "slowest ms",
+        "case",
+    ];
+    let seed = chunks.first().map_or(0, |chunk| chunk.seed);
+    let refusals = all.refused.iter().map(|(kind, count)| [kind.clone(), count.to_string()]);
+    let text = [
+        table(header, rows.collect()),
+        format!(
+            "\nPer cent of the cases. false: called solved, and isn't; misreported: relaxed, and what is said \
+             to hold instead doesn't. ms:\nwall time of the solve beside the other threads; over time: \
+             above {} ms and, alone, above {} ms. Seed {seed}.\n\n",
+            1e3 * SUSPICIOUS,
+            1e3 * LIMIT,
+        ),
+        table(["refused as", "cases"], refusals.collect()),
+    ]
+    .concat();
+    let alarms: Vec<String> = chunks.iter().flat_map(|chunk| chunk.alarms.clone()).collect();
+    let json =
+        json!({ "cases": all.cases, "seed": seed, "distributions": by_name, "alarms": alarms });
+    Report { text, json, notable: Vec::new(), alarms }
 }
 
 fn row((name, t): (&str, &Tally)) -> [String; 14] {
@@ -372,28 +454,51 @@ mod tests {
     use super::*;
 
     fn splines() -> Splines {
-        catalog::ENTRIES
+        SPLINES
             .iter()
-            .map(|info| (info.name, catalog::spline(info.name).unwrap()))
+            .map(|name| (*name, catalog::spline(name).unwrap()))
             .collect()
     }
 
     #[test]
     fn nothing_panics_and_all_is_finite() {
-        let outcome = on_all_cores(1100, 0, &splines());
+        let outcome = on_all_cores(0..1100, 0, &splines());
         let worst = outcome.offences.iter().map(|(offence, ..)| *offence).min();
         assert!(worst.is_none_or(|offence| offence >= Offence::False), "{:?}", outcome.offences);
     }
 
     #[test]
     fn nothing_happens_that_must_never() {
-        let report = run(2000, 0).unwrap_or_else(|failure| panic!("{}", failure.message));
+        let (_, report) = run(0..2000, 0).unwrap_or_else(|failure| panic!("{}", failure.message));
         assert_eq!(report.alarms, [""; 0]);
     }
 
     #[test]
+    fn chunks_add_up_and_none_counts_twice() {
+        let chunk = |cases: Range<usize>| {
+            let run = run(cases, 3).unwrap_or_else(|failure| panic!("{}", failure.message));
+            serde_json::to_string(&run.0).unwrap()
+        };
+        let counts = |text: &str| {
+            let chunks = chunks(text)?;
+            let json = report(&chunks.iter().collect::<Vec<_>>()).json;
+            let of = |tally: &serde_json::Value| {
+                ["cases", "solved", "relaxed", "refused"].map(|count| tally[count].clone())
+            };
+            let names = json["distributions"].as_object().unwrap().iter();
+            Ok::<_, String>(
+                names.map(|(name, tally)| (name.clone(), of(tally))).collect::<Vec<_>>(),
+            )
+        };
+        let (first, second, whole) = (chunk(0..150), chunk(150..400), chunk(0..400));
+        assert_eq!(counts(&format!("{second}\n{first}\n")), counts(&whole));
+        assert_eq!(counts(&format!("{first}\n{whole}")), Err("case 0 is there twice".to_owned()));
+        assert_eq!(counts(""), Err("nothing in it".to_owned()));
+    }
+
+    #[test]
     fn counts_do_not_depend_on_the_order_of_work() {
-        let whole = on_all_cores(1100, 5, &splines());
+        let whole = on_all_cores(0..1100, 5, &splines());
         let mut parts =
             Outcome { tallies: vec![Tally::default(); DISTRIBUTIONS.len()], ..Outcome::default() };
         let splines = splines();

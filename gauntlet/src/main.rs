@@ -5,6 +5,7 @@ mod all;
 mod bezier;
 mod bezier_fonts;
 mod classes;
+mod clock;
 #[cfg(libspiro)]
 mod ffi;
 mod fonts;
@@ -12,6 +13,7 @@ mod fonts_input;
 mod generate;
 mod hostile;
 mod hostile_inputs;
+mod pictures;
 mod progress;
 mod report;
 mod residual;
@@ -80,6 +82,9 @@ enum Command {
         /// Contours in each class
         #[arg(long, default_value_t = 200)]
         cases: usize,
+        /// The first of them
+        #[arg(long, default_value_t = 0, value_name = "CASE")]
+        from: usize,
     },
     /// Béziers against kurbo's fitters on six curves
     Bezier {
@@ -106,9 +111,20 @@ enum Command {
         /// Inputs in all
         #[arg(long, default_value_t = 1_000_000)]
         cases: usize,
+        /// The first of them
+        #[arg(long, default_value_t = 0, value_name = "CASE")]
+        from: usize,
+        /// Append the result to this file, a line of JSON, for `hostile-sum`
+        #[arg(long, value_name = "FILE")]
+        append: Option<PathBuf>,
         /// Other inputs for every number
         #[arg(long, default_value_t = 0)]
         seed: u64,
+    },
+    /// Adds up what runs of `hostile` have appended to a file
+    HostileSum {
+        /// The file
+        file: PathBuf,
     },
     /// The best curves that exist, by minutes of search
     Search {
@@ -130,6 +146,14 @@ enum Command {
         #[arg(long, value_name = "FOLDER")]
         yardstick: Option<PathBuf>,
     },
+    /// Draws hard contours, with captions
+    Pictures {
+        /// Where the pictures go
+        folder: PathBuf,
+        /// Contours of each class, of which the worst are drawn
+        #[arg(long, default_value_t = 20)]
+        cases: usize,
+    },
     /// faircurve against the best curves that the search has found
     AgainstSearch {
         /// Only contours whose place contains this
@@ -148,6 +172,8 @@ impl Command {
             self,
             Command::Bezier { .. }
                 | Command::Hostile { .. }
+                | Command::HostileSum { .. }
+                | Command::Pictures { .. }
                 | Command::Search { .. }
                 | Command::AgainstSearch { .. }
         )
@@ -189,7 +215,9 @@ fn run(arguments: &Arguments) -> Result<Report, Failure> {
         Command::Time { files, rounds, fonts_only } => {
             time::run(&fonts_input::read(files)?, *rounds as usize, !fonts_only)
         }
-        Command::Classes { filter, cases } => classes::run(filter, *cases),
+        Command::Classes { filter, cases, from } => {
+            classes::run(filter, *from..from.saturating_add(*cases))
+        }
         Command::Search { files, class, cases, seconds, seed, yardstick } => {
             let contours = match class {
                 Some(class) => classes::contours(class, *cases)?,
@@ -207,7 +235,15 @@ fn run(arguments: &Arguments) -> Result<Report, Failure> {
         Command::Bezier { random: Some(cases), seed, .. } => Ok(bezier::random(*cases, *seed)),
         Command::Bezier { rounds, .. } => Ok(bezier::run(*rounds)),
         Command::BezierFonts { files, opt } => bezier_fonts::run(&fonts_input::read(files)?, *opt),
-        Command::Hostile { cases, seed } => hostile::run(*cases, *seed),
+        Command::Hostile { cases, from, append, seed } => {
+            let (chunk, report) = hostile::run(*from..from.saturating_add(*cases), *seed)?;
+            if let Some(file) = append {
+                hostile::append(&chunk, file)?;
+            }
+            Ok(report)
+        }
+        Command::Pictures { folder, cases } => pictures::run(folder, *cases),
+        Command::HostileSum { file } => hostile::sum(file),
     }
 }
 

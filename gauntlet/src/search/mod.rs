@@ -14,11 +14,12 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-use faircurve::plan::Plan;
+use faircurve::plan::{Plan, Run};
 use faircurve::spline::RunSolution;
 use faircurve::{Contour, PolynomialSpiral, Segment, Spline};
 use serde_json::json;
 
+use crate::generate::Random;
 use crate::progress::Progress;
 use crate::report::{Report, percent, table};
 use crate::rivals::Ours;
@@ -85,18 +86,49 @@ fn search(
             how = root.how;
         }
         fewest_loops += root.fewest_loops;
-        let point = |i: usize| run.knots[i % run.knots.len()].point;
-        let segments = root
-            .state
-            .k
-            .iter()
-            .enumerate()
-            .map(|(i, k)| Segment::spiral(point(i), point(i + 1), PolynomialSpiral::new(*k)))
-            .collect();
+        let segments = segments(run, &root.state.k);
         solutions.push(RunSolution { segments, ..RunSolution::default() });
     }
     let ours = Ours::judge(contour, spline, plan.assemble(solutions));
     (ours.as_asked.value <= 1e-8).then_some((ours, fewest_loops, how))
+}
+
+/// Curves as asked of a contour that is one run, all different, by how much they turn: those that
+/// Newton's method finds from a few hundred seeded starts.
+pub(crate) fn roots(contour: &Contour, spline: &dyn Spline) -> Vec<Ours> {
+    const STARTS: usize = 300;
+    /// Of k₀ … k₃.
+    const SIZES: [f64; 4] = [3.0, 20.0, 40.0, 200.0];
+    let Ok(plan) = Plan::new(contour, spline) else { return Vec::new() };
+    let [run] = plan.runs() else { return Vec::new() };
+    let chain = Chain::new(run);
+    let mut random = Random::for_case("roots", 0);
+    let mut roots: Vec<Ours> = Vec::new();
+    for _ in 0..STARTS {
+        let mut state = chain.straight();
+        for k in &mut state.k {
+            *k = SIZES.map(|size| size * random.between(-1.0, 1.0));
+        }
+        chain.wind(&mut state);
+        chain.newton(&mut state, 1.0, 60);
+        let solution = RunSolution { segments: segments(run, &state.k), ..RunSolution::default() };
+        let root = Ours::judge(contour, spline, plan.assemble(vec![solution]));
+        let is_new = roots.iter().all(|known| (known.turning - root.turning).abs() > 1e-6);
+        if root.as_asked.value <= 1e-8 && is_new {
+            roots.push(root);
+        }
+    }
+    roots.sort_by(|a, b| a.turning.total_cmp(&b.turning));
+    roots
+}
+
+/// The segments of a run with these parameters.
+fn segments(run: &Run, k: &[[f64; 4]]) -> Vec<Segment> {
+    let point = |i: usize| run.knots[i % run.knots.len()].point;
+    let segment = |(i, k): (usize, &[f64; 4])| {
+        Segment::spiral(point(i), point(i + 1), PolynomialSpiral::new(*k))
+    };
+    k.iter().enumerate().map(segment).collect()
 }
 
 fn report(rows: &[(Entry, Option<Entry>)]) -> Report {

@@ -29,6 +29,12 @@ pub trait FourParamFamily {
     /// The ends of the segment with these parameters, for unit chord.
     fn respond(&self, parameters: [f64; 4]) -> Response;
 
+    /// The same to about 1e-7, if that is faster: for searching. A smooth function too, whose
+    /// derivatives are its own.
+    fn respond_roughly(&self, parameters: [f64; 4]) -> Response {
+        self.respond(parameters)
+    }
+
     /// The parameters of the segment with these end tangents and κ″ = 0 at both ends (`theta0` and
     /// `theta1` as at [`ChordAngles`](crate::frame::ChordAngles), within ±π): what G1 knots are joined by. Must always
     /// be drawable.

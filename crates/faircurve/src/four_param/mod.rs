@@ -5,6 +5,7 @@
 //! the [constraint table](constraint_table) says what must hold at each kind of join; and the
 //! [spline] solves for the tangents and curvatures that make it so.
 
+mod budget;
 pub mod constraint_table;
 pub mod family;
 mod relax;

@@ -3,13 +3,14 @@
 
 use std::ops::RangeInclusive;
 
+use super::budget::Budget;
 use super::family::FourParamFamily;
-use super::spline::{ConstraintSpline, Solved, is_interior};
+use super::spline::{ConstraintSpline, Means, Solved, is_interior};
 use super::strategy::UNSETTLED;
 use crate::frame::{direction, wrap_angle};
 use crate::outline::Join;
 use crate::plan::Run;
-use crate::spline::{Effort, Place, Relaxation};
+use crate::spline::{Place, Relaxation};
 use crate::tolerance::SOLVED;
 
 impl<F: FourParamFamily> ConstraintSpline<F> {
@@ -19,25 +20,29 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
     /// ([`many`](Self::relax_many)), unless three do.
     ///
     /// Returns the solution and the run as weakened.
-    pub(super) fn relax(&self, run: &Run, first: Solved, effort: Effort) -> (Solved, Run) {
-        /// Share of the effort that may go into a few knots, and again into many.
-        const SHARE: usize = 4;
-        let work = effort.evaluations(run.knots.len()) / SHARE;
-        let (mut few, mut many) = (work, work);
+    pub(super) fn relax(&self, run: &Run, first: Solved, budget: Budget) -> (Solved, Run) {
+        /// Shares of the budget for a few knots and for many; the rest is for asking again.
+        const SHARES: [f64; 2] = [0.4, 0.4];
+        let all = budget.left() as f64;
+        let [mut few, mut many] = SHARES.map(|share| Budget::new((all * share) as usize));
+        let mut rest = budget;
+        rest.spend(few.left() + many.left());
         let (mut last, mut weaker) = (first, run.clone());
         for join in [Join::G2, Join::G1] {
             if let Some(found) = self.relax_few(&weaker, &last, join, 1..=2, &mut few) {
                 return found;
             }
-            let many = self.relax_many(&weaker, &last, join, &mut many);
-            if many.0.is_solved() {
-                let many = self.restore(run, many);
-                if weakened(run, &many.1).len() <= 3 {
-                    return many;
+            let found = self.relax_many(&weaker, &last, join, &mut many);
+            if found.0.is_solved() {
+                rest.put_back(many);
+                let found = self.restore(run, found, &mut rest);
+                if weakened(run, &found.1).len() <= 3 {
+                    return found;
                 }
-                return self.relax_few(&weaker, &last, join, 3..=3, &mut few).unwrap_or(many);
+                few.put_back(rest);
+                return self.relax_few(&weaker, &last, join, 3..=3, &mut few).unwrap_or(found);
             }
-            (last, weaker) = many;
+            (last, weaker) = found;
         }
         self.relax_all(weaker, last)
     }
@@ -50,7 +55,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
         last: &Solved,
         join: Join,
         sizes: RangeInclusive<usize>,
-        work: &mut usize,
+        budget: &mut Budget,
     ) -> Option<(Solved, Run)> {
         /// Knots that are tried: those that are bad before others, the most strained first.
         const TRIED: usize = 8;
@@ -59,13 +64,12 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
         let mut looping: Option<(Solved, Run)> = None;
         let mut iterations = last.iterations;
         for set in sizes.flat_map(|size| subsets(&candidates, size)) {
-            if *work == 0 {
+            if budget.is_spent() {
                 break;
             }
             let mut trial = run.clone();
             set.iter().for_each(|&i| weaken(&mut trial, i, join));
-            let mut solved = self.solve_split(&trial, &mut 0);
-            *work = work.saturating_sub((solved.iterations + 1) * trial.segment_count());
+            let mut solved = self.solve_split(&trial, Means::Plain, budget);
             iterations += solved.iterations;
             solved.iterations = iterations;
             if solved.is_good() {
@@ -79,7 +83,13 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
     }
 
     /// Weakens the most strained knots of each bad stretch, twice as many every round.
-    fn relax_many(&self, run: &Run, first: &Solved, join: Join, work: &mut usize) -> (Solved, Run) {
+    fn relax_many(
+        &self,
+        run: &Run,
+        first: &Solved,
+        join: Join,
+        budget: &mut Budget,
+    ) -> (Solved, Run) {
         const ROUNDS: u32 = 4;
         let n = run.knots.len();
         let mut weaker = run.clone();
@@ -91,7 +101,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
             candidates.retain(|&i| bad(i));
             candidates.truncate(stretches << round);
             candidates.iter().for_each(|&i| weaken(&mut weaker, i, join));
-            let solved = self.solve_split(&weaker, work);
+            let solved = self.solve_split(&weaker, Means::Search, budget);
             last = Solved { iterations: last.iterations + solved.iterations, ..solved };
             if last.is_solved() {
                 break;
@@ -110,7 +120,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
                 weaker.knots[i].join = Join::G1;
             }
         }
-        let mut last = self.solve_split(&weaker, &mut 0);
+        let mut last = self.solve_split(&weaker, Means::Plain, &mut Budget::new(0));
         last.iterations += before.iterations;
         for i in 0..weaker.segment_count() {
             let ends = [i, (i + 1) % n];
@@ -129,16 +139,21 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
 
     /// Asks again for what was weakened, knot by knot, the least strained first, and keeps what
     /// plain Newton iteration solves without more loops.
-    fn restore(&self, run: &Run, (mut solved, mut weaker): (Solved, Run)) -> (Solved, Run) {
-        /// Segments that the trials may solve for in all.
-        const MOST_WORK: usize = 5000;
+    fn restore(
+        &self,
+        run: &Run,
+        (mut solved, mut weaker): (Solved, Run),
+        budget: &mut Budget,
+    ) -> (Solved, Run) {
         let mut weakened = weakened(run, &weaker);
         weakened.sort_by(|&a, &b| strain(run, a).total_cmp(&strain(run, b)));
-        weakened.truncate(MOST_WORK / run.knots.len());
         for i in weakened {
+            if budget.is_spent() {
+                break;
+            }
             let mut trial = weaker.clone();
             trial.knots[i] = run.knots[i];
-            let attempt = self.solve_split(&trial, &mut 0);
+            let attempt = self.solve_split(&trial, Means::Plain, budget);
             if attempt.is_solved() && attempt.loops <= solved.loops {
                 let iterations = solved.iterations + attempt.iterations;
                 (solved, weaker) = (Solved { iterations, ..attempt }, trial);

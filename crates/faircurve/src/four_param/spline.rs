@@ -1,5 +1,6 @@
 //! The spline of a four-parameter family: Table 7.1's conditions at every knot of a run.
 
+use super::budget::Budget;
 use super::family::FourParamFamily;
 use super::relax::relaxations;
 use super::strategy;
@@ -50,6 +51,15 @@ impl Solved {
     }
 }
 
+/// How a run is solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Means {
+    /// By plain Newton iteration alone.
+    Plain,
+    /// By a search, where that doesn't lead to a curve without loops.
+    Search,
+}
+
 impl<F: FourParamFamily> ConstraintSpline<F> {
     /// The spline of this family.
     pub fn new(family: F) -> Self {
@@ -58,30 +68,36 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
 
     /// Solves one run if plain Newton iteration does, without loops.
     pub fn solve_plainly(&self, run: &Run) -> Option<RunSolution> {
-        let solved = self.solve_smooth(run, &mut 0);
+        let solved = self.solve_smooth(run, Means::Plain, &mut Budget::new(0));
         solved.is_good().then(|| self.place(run, solved, Vec::new()))
     }
 
     /// Solves one run: as asked if possible, else relaxed at the knots where it isn't.
     pub fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution {
-        let mut budget = effort.evaluations(run.knots.len());
-        let solved = self.solve_smooth(run, &mut budget);
+        /// Share of the effort that is kept for relaxing.
+        const FOR_RELAXING: f64 = 0.25;
+        let mut budget = Budget::new(effort.evaluations(run.knots.len()));
+        budget.reserve(FOR_RELAXING);
+        let solved = self.solve_smooth(run, Means::Search, &mut budget);
         if solved.is_solved() {
             return self.place(run, solved, Vec::new());
         }
-        let (solved, weaker) = self.relax(run, solved, effort);
+        budget.release();
+        let (solved, weaker) = self.relax(run, solved, budget);
         let relaxed = relaxations(run, &weaker);
         self.place(run, solved, relaxed)
     }
 
-    /// Solves a run without G1 knots, as well as the budget for searching allows.
-    fn solve_smooth(&self, run: &Run, budget: &mut usize) -> Solved {
+    /// Solves a run without G1 knots, as well as means and budget allow.
+    fn solve_smooth(&self, run: &Run, means: Means, budget: &mut Budget) -> Solved {
         let mut system = RunSystem::new(&self.family, run);
         let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
-        let plain = strategy::solve_plainly(&mut system, &mut matrix, || self.arcs(run));
-        let (outcome, stage) = match plain {
-            (outcome, true) => (outcome, Stage::Plain),
-            (outcome, false) => strategy::search(&mut system, &mut matrix, outcome, budget),
+        let (plain, is_good) =
+            strategy::solve_plainly(&mut system, &mut matrix, budget, || self.arcs(run));
+        let (outcome, stage) = if is_good || means == Means::Plain {
+            (plain, Stage::Plain)
+        } else {
+            strategy::search(&mut system, &mut matrix, plain, budget)
         };
         system.clean();
         Solved {
@@ -116,11 +132,11 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
     }
 
     /// Solves a run that may have G1 knots, at which it falls into stretches of their own.
-    pub(super) fn solve_split(&self, run: &Run, budget: &mut usize) -> Solved {
+    pub(super) fn solve_split(&self, run: &Run, means: Means, budget: &mut Budget) -> Solved {
         let n = run.knots.len();
         let is_split = |i: usize| is_interior(run, i) && run.knots[i].join == Join::G1;
         let mut bounds: Vec<usize> = (0..n).filter(|&i| is_split(i)).collect();
-        let Some(&first) = bounds.first() else { return self.solve_smooth(run, budget) };
+        let Some(&first) = bounds.first() else { return self.solve_smooth(run, means, budget) };
         if run.closed {
             bounds.push(first);
         } else {
@@ -141,7 +157,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
             for (end, knot) in ends.into_iter().filter(|&(_, knot)| is_split(knot)) {
                 stretch.knots[end].tangent = Some(self.g1_tangent(run, knot));
             }
-            let solved = self.solve_smooth(&stretch, budget);
+            let solved = self.solve_smooth(&stretch, means, budget);
             for (i, parameters) in solved.parameters.into_iter().enumerate() {
                 whole.parameters[(pair[0] + i) % n] = parameters;
             }
@@ -184,4 +200,95 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
 
 pub(super) fn is_interior(run: &Run, i: usize) -> bool {
     run.closed || (i > 0 && i + 1 < run.knots.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use kurbo::Point;
+
+    use super::*;
+    use crate::families::spiro::{PolynomialSpirals, Spiro};
+    use crate::four_param::family::Response;
+    use crate::outline::{Contour, Knot};
+    use crate::plan::Plan;
+    use crate::segment::Segment;
+
+    /// Counts evaluations.
+    struct Counted<'a>(&'a Cell<usize>);
+
+    impl Counted<'_> {
+        fn count(&self) {
+            self.0.set(self.0.get() + 1);
+        }
+    }
+
+    impl FourParamFamily for Counted<'_> {
+        fn respond(&self, parameters: [f64; 4]) -> Response {
+            self.count();
+            PolynomialSpirals.respond(parameters)
+        }
+        fn respond_roughly(&self, parameters: [f64; 4]) -> Response {
+            self.count();
+            PolynomialSpirals.respond_roughly(parameters)
+        }
+        fn between_tangents(&self, theta0: f64, theta1: f64) -> [f64; 4] {
+            PolynomialSpirals.between_tangents(theta0, theta1)
+        }
+        fn between_ends(&self, ends: [f64; 4]) -> Vec<[f64; 4]> {
+            PolynomialSpirals.between_ends(ends)
+        }
+        fn shape(&self, start: Point, end: Point, parameters: [f64; 4]) -> Segment {
+            PolynomialSpirals.shape(start, end, parameters)
+        }
+        fn bend(&self, change: [f64; 4]) -> f64 {
+            PolynomialSpirals.bend(change)
+        }
+    }
+
+    /// Knots all over a square of 101 units, by a fixed sequence; the same everywhere.
+    fn scattered(count: usize, closed: bool, seed: usize) -> Contour {
+        let knots = (0..count).map(|i| {
+            let i = i + seed;
+            let (x, y) = ((i * i * 37 + i * 11) % 101, (i * i * i * 53 + i * 29) % 101);
+            Knot::new((x as f64, y as f64 + 1e-3 * i as f64)).join(Join::G4)
+        });
+        if closed { Contour::closed(knots) } else { Contour::open(knots) }
+    }
+
+    /// All work on a run, searching and relaxing, stays within its budget, but for plain solves: the
+    /// one before it, those that are made even when nothing is left (each round of relaxing makes
+    /// one), and by how much a single step may overspend.
+    #[test]
+    fn no_run_spends_more_than_its_budget() {
+        /// Evaluations a segment: so many plain solves of at most 20 each, and two steps of a search.
+        const BEYOND: usize = 14 * 20 + 2 * 50;
+        let mut most = 0.0f64;
+        for (count, effort) in
+            [(5, 1.0), (8, 1.0), (8, 0.01), (16, 1.0), (48, 1.0), (48, 0.0), (120, 1.0)]
+        {
+            for closed in [false, true] {
+                for seed in 0..3 {
+                    let contour = scattered(count, closed, 100 * seed);
+                    let plan = Plan::new(&contour, &Spiro).unwrap();
+                    for run in plan.runs() {
+                        let evaluations = Cell::new(0);
+                        let effort = Effort::times(effort);
+                        let budget = effort.evaluations(run.knots.len());
+                        let _ = ConstraintSpline::new(Counted(&evaluations)).solve_run(run, effort);
+                        let beyond = BEYOND * run.segment_count();
+                        let spent = evaluations.get();
+                        most = most.max(spent as f64 / budget.max(1) as f64);
+                        assert!(
+                            spent <= budget + beyond,
+                            "{count} {closed} {seed}: {spent} of {budget} + {beyond}"
+                        );
+                    }
+                }
+            }
+        }
+        // Some are so hard that they need all of it.
+        assert!(most > 0.9, "{most}");
+    }
 }

@@ -55,6 +55,8 @@ pub(super) struct RunSystem<'a, F> {
     /// Mismatch at each knot of direction, and of curvature times h: right side minus left.
     mismatch: Vec<[f64; 2]>,
     closed: bool,
+    /// Whether segments are evaluated roughly.
+    rough: bool,
 }
 
 impl<'a, F: FourParamFamily> RunSystem<'a, F> {
@@ -78,11 +80,12 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
             responses: Vec::with_capacity(segments),
             mismatch: vec![[0.0; 2]; n],
             closed: run.closed,
+            rough: false,
         }
     }
 
     /// The same equations with every number rounded to about eight digits, in units of the longest
-    /// chord, from straight segments.
+    /// chord, and segments evaluated to seven, from straight segments.
     ///
     /// Runs that differ by a similarity differ in their last digits; rounded, they are the same run,
     /// and so is all that a search makes of it, however sensitive.
@@ -95,7 +98,7 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
         };
         let longest = self.chords.iter().copied().fold(0.0, f64::max);
         let n = self.knots.len();
-        let mut rounded = self.clone();
+        let mut rounded = RunSystem { rough: true, ..self.clone() };
         rounded.parameters.fill([0.0; 4]);
         rounded.chords.iter_mut().for_each(|chord| *chord = floating(*chord / longest));
         for (i, knot) in rounded.knots.iter_mut().enumerate() {
@@ -135,6 +138,12 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
                 self.parameters[i] = clean;
             }
         }
+    }
+
+    /// Makes a segment's parameters obey the zero conditions on it.
+    pub(super) fn enforce(&mut self, segment: usize) {
+        let constraints = self.constraints(segment);
+        constraints.enforce(&mut self.parameters[segment]);
     }
 
     /// The zero conditions on a segment.
@@ -195,6 +204,7 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
             mismatch: vec![[0.0; 2]; count + 1],
             knots,
             closed: false,
+            rough: self.rough,
         }
     }
 
@@ -329,10 +339,24 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
     /// Computes responses and mismatches of the present state.
     pub(super) fn evaluate(&mut self) {
         self.responses.clear();
-        self.responses.extend(self.parameters.iter().map(|p| self.family.respond(*p)));
+        if self.rough {
+            self.responses.extend(self.parameters.iter().map(|p| self.family.respond_roughly(*p)));
+        } else {
+            self.responses.extend(self.parameters.iter().map(|p| self.family.respond(*p)));
+        }
         for i in 0..self.knots.len() {
             self.mismatch[i] = self.mismatch_at(i);
         }
+    }
+
+    /// The sum of [`bend`](Self::bend) over all segments.
+    pub(super) fn total_bend(&self) -> f64 {
+        (0..self.parameters.len()).map(|segment| self.bend(segment)).sum()
+    }
+
+    /// A bound of how far a segment turns from its middle, in radians.
+    pub(super) fn bend(&self, segment: usize) -> f64 {
+        self.family.bend(self.parameters[segment])
     }
 
     fn mismatch_at(&self, i: usize) -> [f64; 2] {
@@ -401,6 +425,7 @@ impl<F> Clone for RunSystem<'_, F> {
             responses: self.responses.clone(),
             mismatch: self.mismatch.clone(),
             closed: self.closed,
+            rough: self.rough,
         }
     }
 }

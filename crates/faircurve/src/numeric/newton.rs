@@ -43,6 +43,16 @@ pub fn newton<const B: usize>(
     matrix: &mut BlockTridiagonal<B>,
     limits: Limits,
 ) -> Outcome {
+    newton_while(system, matrix, limits, |_| true)
+}
+
+/// The same, as long as the state reached is also worth going on from.
+pub fn newton_while<const B: usize>(
+    system: &mut impl System<B>,
+    matrix: &mut BlockTridiagonal<B>,
+    limits: Limits,
+    goes_on: impl Fn(Outcome) -> bool,
+) -> Outcome {
     /// Below this, quadratic convergence has arrived: another step can't help.
     const DONE: f64 = 4e-15;
     /// From here on a residual that stops falling has met its rounding errors.
@@ -53,7 +63,8 @@ pub fn newton<const B: usize>(
     loop {
         let residual = system.linearize(matrix);
         let outcome = Outcome { iterations, residual };
-        if residual <= DONE || iterations >= limits.iterations || !residual.is_finite() {
+        let ends = residual <= DONE || iterations >= limits.iterations || !residual.is_finite();
+        if ends || !goes_on(outcome) {
             return outcome;
         }
         if residual < 0.5 * least {

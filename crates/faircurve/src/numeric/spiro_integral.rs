@@ -87,6 +87,31 @@ pub fn spiro_moments(k: [f64; 4]) -> SpiroMoments {
     moments(k)
 }
 
+/// The largest wildness up to which each rule of 8, 12, 16, 24 and 32 nodes errs by at most 1e-7 in
+/// every moment. Measured on 3000 random directions of k; k₃ alone is the hardest for the small
+/// rules, k₀ alone for the large ones.
+const ROUGH: [f64; 5] = [4.2, 18.0, 32.4, 58.2, 85.4];
+
+/// The same to about 1e-7, up to three times as fast: for a search, which asks only where to look.
+///
+/// The moments are exact derivatives of M₀ as it is computed, but where the rule changes.
+pub fn rough_spiro_moments(k: [f64; 4]) -> SpiroMoments {
+    let wildness = wildness(k);
+    if wildness <= ROUGH[0] {
+        single_panel(&GAUSS_8, k)
+    } else if wildness <= ROUGH[1] {
+        single_panel(&GAUSS_12, k)
+    } else if wildness <= ROUGH[2] {
+        single_panel(&GAUSS_16, k)
+    } else if wildness <= ROUGH[3] {
+        single_panel(&GAUSS_24, k)
+    } else if wildness <= ROUGH[4] {
+        single_panel(&GAUSS_32, k)
+    } else {
+        wild_moments(k)
+    }
+}
+
 #[inline(always)]
 fn moments(k: [f64; 4]) -> SpiroMoments {
     let growth = growth(k);
@@ -223,6 +248,19 @@ pub fn spiro_integral_between(k: [f64; 4], from: f64, to: f64) -> Complex64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rough_moments_are_right_to_seven_digits() {
+        for direction in directions(wildness) {
+            for size in ROUGH.iter().flat_map(|limit| [0.5 * limit, 0.999 * limit]) {
+                let k = direction.map(|k| k * size);
+                let (rough, exact) = (rough_spiro_moments(k), spiro_moments(k));
+                for (rough, exact) in rough.0.iter().zip(exact.0) {
+                    assert!((rough - exact).norm() < 1.1e-7, "{k:?}: {rough} {exact}");
+                }
+            }
+        }
+    }
 
     /// Directions of k spread over shapes, some components zero, scaled so that `measure` is 1;
     /// without a generator's dependency.

@@ -88,11 +88,11 @@ impl Rescue {
         /// Forms tried, the straightest first.
         const FORMS: usize = 12;
         let Some(ends) = system.ends_beside(segment) else { return false };
-        self.spend(COST);
+        self.budget.spend(COST);
         let chains = system.state();
         let mut straightest: Option<(f64, _)> = None;
         for form in system.family().between_ends(ends).into_iter().take(FORMS) {
-            system.set_state(&chains);
+            self.return_to(system, &chains);
             system.parameters[segment] = form;
             system.evaluate();
             system.unwind();
@@ -105,12 +105,12 @@ impl Rescue {
                     break;
                 }
             }
-            if self.budget == 0 {
+            if self.budget.is_spent() {
                 break;
             }
         }
         let found = straightest.is_some();
-        system.set_state(&straightest.map_or(chains, |(_, state)| state));
+        self.return_to(system, &straightest.map_or(chains, |(_, state)| state));
         found
     }
 }

@@ -1,9 +1,15 @@
 //! Mending: bad stretches are restarted alone, with their rim held.
 
+use std::ops::Range;
+
 use super::{Badness, REACH, Rescue, UNSETTLED, is_unsettled, turn_round};
 use crate::four_param::family::FourParamFamily;
 use crate::four_param::system::RunSystem;
 use crate::frame::wrap_angle;
+
+/// A restart that leaves as many loops is kept if the run then bends less than so many times what
+/// it did; less of a gain isn't worth an attempt.
+const LESS: f64 = 0.98;
 
 impl Rescue {
     /// Restarts bad stretches until all are good or one has had its share of attempts.
@@ -16,7 +22,7 @@ impl Rescue {
         const BOOKKEEPING: usize = 16;
         let n = system.knots.len();
         let mut attempt = 0;
-        while self.budget > 0 && attempt < PATIENCE {
+        while !self.budget.is_spent() && attempt < PATIENCE {
             let stretches = bad_stretches(system, MARGINS[attempt % MARGINS.len()]);
             let Some(&(from, to)) =
                 stretches.get((attempt / MARGINS.len()) % stretches.len().max(1))
@@ -24,15 +30,58 @@ impl Rescue {
                 return;
             };
             attempt += 1;
-            self.spend(n / BOOKKEEPING);
+            self.budget.spend(n / BOOKKEEPING);
             let Some(window) = self.restart(system, from, to, attempt) else { continue };
-            let (before, badness) = (system.state(), Badness::of(system));
+            let (before, badness, bend) =
+                (system.state(), Badness::of(system), system.total_bend());
             system.adopt(&window, from);
             self.settle_around(system, from, to);
-            if Badness::of(system) < badness {
+            let now = Badness::of(system);
+            let bends_less =
+                now == badness && now.unsettled == 0 && system.total_bend() < LESS * bend;
+            if now < badness {
                 attempt = 0;
-            } else {
-                system.set_state(&before);
+            } else if !bends_less {
+                self.return_to(system, &before);
+            }
+        }
+    }
+
+    /// Restarts the surroundings of segments that bend much, and keeps what bends less: a search may
+    /// have come upon a curve that winds more than it must.
+    pub(super) fn straighten<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>) {
+        /// Bend of a segment below which there is nothing to gain, in radians: an arc of 230°.
+        const BENT: f64 = 2.0;
+        const ATTEMPTS: usize = 24;
+        /// Segments on either side that are restarted with it.
+        const MARGINS: [usize; 3] = [1, 2, 3];
+        let n = system.knots.len();
+        for attempt in 0..ATTEMPTS {
+            let mut bent: Vec<(f64, usize)> = (0..system.parameters.len())
+                .map(|segment| (system.bend(segment), segment))
+                .filter(|&(bend, _)| bend > BENT)
+                .collect();
+            bent.sort_by(|a, b| b.0.total_cmp(&a.0));
+            if bent.is_empty() || self.budget.is_spent() {
+                return;
+            }
+            let (_, segment) = bent[(attempt / MARGINS.len()) % bent.len()];
+            let margin = MARGINS[attempt % MARGINS.len()];
+            let (from, to) = match (2 * margin + 1 < n, system.is_closed()) {
+                (true, true) => ((segment + n - margin) % n, (segment + 1 + margin) % n),
+                (true, false) => {
+                    (segment.saturating_sub(margin), (segment + 1 + margin).min(n - 1))
+                }
+                (false, true) => (0, 0),
+                (false, false) => (0, n - 1),
+            };
+            let Some(window) = self.restart(system, from, to, attempt) else { continue };
+            let (before, badness, bend) =
+                (system.state(), Badness::of(system), system.total_bend());
+            system.adopt(&window, from);
+            self.settle_around(system, from, to);
+            if Badness::of(system) > badness || system.total_bend() >= LESS * bend {
+                self.return_to(system, &before);
             }
         }
     }
@@ -51,10 +100,19 @@ impl Rescue {
         /// After so many attempts they are tried as well.
         const AT_A_LOSS: usize = 18;
         const SHARE_TURNED: f64 = 0.3;
-        /// One attempt in this many builds the stretch knot by knot instead.
+        /// One attempt in this many builds the stretch knot by knot instead. The whole run is grown
+        /// in its own stage.
         const GROWN: usize = 5;
+        /// One attempt in this many, where something hasn't settled or loops already, puts a loop into
+        /// one segment. Some runs have no curve without, those of mixed joins often, and one loop may
+        /// be less than another.
+        const LOOPED: usize = 3;
         let mut window = if from == to { system.clone() } else { system.window(from, to) };
-        if attempt.is_multiple_of(GROWN) && from != to {
+        let is_whole = window.parameters.len() == system.parameters.len();
+        let is_good = Badness::of(system) == Badness::NONE;
+        if attempt % LOOPED == LOOPED - 1 && !is_good {
+            self.seed_loop(&mut window);
+        } else if attempt.is_multiple_of(GROWN) && !is_whole {
             self.grow_open(&mut window);
         } else {
             let amplitude = (attempt % 4) as f64 / 3.0;
@@ -65,18 +123,43 @@ impl Rescue {
                     turn_round(knot);
                 }
             }
-            for parameters in &mut window.parameters {
-                *parameters = self.seed(amplitude);
+            for segment in 0..window.parameters.len() {
+                self.seed(&mut window, segment, amplitude);
             }
         }
         let outcome = self.solve_window(&mut window);
         (outcome.residual <= UNSETTLED).then_some(window)
     }
 
-    /// Parameters of about the size that hard solutions have.
-    pub(super) fn seed(&mut self, amplitude: f64) -> [f64; 4] {
+    /// Gives a segment parameters of about the size that hard solutions have, with what is zero
+    /// there zero.
+    pub(super) fn seed<F: FourParamFamily>(
+        &mut self,
+        window: &mut RunSystem<'_, F>,
+        segment: usize,
+        amplitude: f64,
+    ) {
         const SIZES: [f64; 4] = [1.0, 4.0, 10.0, 40.0];
-        SIZES.map(|size| self.sense * amplitude * size * (2.0 * self.random.next() - 1.0))
+        window.parameters[segment] =
+            SIZES.map(|size| self.sense * amplitude * size * (2.0 * self.random.next() - 1.0));
+        window.enforce(segment);
+    }
+
+    /// Seeds all segments and makes one of them, whichever it is, a loop; windings are those in which
+    /// directions then differ least.
+    fn seed_loop<F: FourParamFamily>(&mut self, window: &mut RunSystem<'_, F>) {
+        /// Curvatures of a loop of length 1: around 2π, at which the chord vanishes.
+        const CURVATURES: Range<f64> = 5.0..8.0;
+        for segment in 0..window.parameters.len() {
+            self.seed(window, segment, 1.0);
+        }
+        let looped = (self.random.next() * window.parameters.len() as f64) as usize;
+        let side = if self.random.next() < 0.5 { -self.sense } else { self.sense };
+        let width = CURVATURES.end - CURVATURES.start;
+        window.parameters[looped][0] = side * (CURVATURES.start + width * self.random.next());
+        window.evaluate();
+        self.budget.spend(window.parameters.len());
+        window.unwind();
     }
 
     /// Lets the surroundings of a mended stretch adapt to it.

@@ -14,6 +14,8 @@
 //!    step adds one and lets the last few settle with a free end, in the few windings nearest to the
 //!    natural one. What is left is mended, and the whole run solved on from there.
 //!
+//! What stages 3 and 4 find is straightened in the end, where it winds more than it must.
+//!
 //! The search sees rounded numbers, so that it takes the same course however the drawing is moved,
 //! turned or scaled; the last word is Newton's, on the exact ones. It is deterministic: seeds are
 //! fixed, and the budget counts work, not time.
@@ -22,13 +24,15 @@ mod bridge;
 mod grow;
 mod mend;
 
+use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
+use crate::four_param::budget::Budget;
 use crate::four_param::family::FourParamFamily;
 use crate::four_param::system::{RunSystem, State, SystemKnot};
 use crate::frame::wrap_angle;
 use crate::numeric::block_tridiagonal::BlockTridiagonal;
-use crate::numeric::newton::{Limits, Outcome, newton};
+use crate::numeric::newton::{Limits, Outcome, newton, newton_while};
 use crate::spline::Stage;
 use crate::tolerance::SOLVED;
 
@@ -41,6 +45,19 @@ const LONG: Limits = Limits { iterations: 30, patience: 12 };
 
 /// A stretch that settles does so in fewer.
 const WINDOW: Limits = Limits { iterations: 12, patience: 8 };
+
+/// Whether a stretch is on its way to settle after so many steps, and not there yet.
+fn is_promising(so_far: Outcome) -> bool {
+    /// Steps after which the residual of a stretch must be below 10, and then fall tenfold in four.
+    /// Of stretches whose restart was a success, hardly any would have been given up, of all work a
+    /// fifth is saved.
+    const GRACE: f64 = 6.0;
+    /// The whole run settles it further.
+    const SETTLED: f64 = 1e-6;
+    let steps = so_far.iterations as f64;
+    let bound = 10f64.powf(1.0 - (steps - GRACE) / 4.0);
+    so_far.residual > SETTLED && (steps < GRACE || so_far.residual <= bound)
+}
 
 /// Knots whose residual exceeds this haven't settled.
 pub(in crate::four_param) const UNSETTLED: f64 = 1e-4;
@@ -57,42 +74,47 @@ const REACH: usize = 10;
 pub(in crate::four_param) fn solve_plainly<F: FourParamFamily>(
     system: &mut RunSystem<'_, F>,
     matrix: &mut BlockTridiagonal<2>,
+    budget: &mut Budget,
     arcs: impl Fn() -> Vec<[f64; 4]>,
 ) -> (Outcome, bool) {
     // Three knots always lie on a circle, two too many times.
     if system.knots.len() <= 3
-        && let Some(round) = solve_round(system, matrix, arcs())
+        && let Some(round) = solve_round(system, matrix, budget, arcs())
     {
         return (round, true);
     }
     let plain = newton(system, matrix, PLAIN);
+    budget.spend(cost(system, plain.iterations));
     if plain.residual <= SOLVED && system.loops().next().is_none() {
         return (plain, true);
     }
-    match solve_round(system, matrix, arcs()) {
+    match solve_round(system, matrix, budget, arcs()) {
         Some(round) => (round, true),
         None => (plain, false),
     }
 }
 
-/// Stages 2 to 4, from the state that [`solve_plainly`] left; `budget` is what they may spend, in
-/// segment evaluations. Ends in the best state found.
+/// Stages 2 to 4, from the state that [`solve_plainly`] left. Ends in the best state found.
 pub(in crate::four_param) fn search<F: FourParamFamily>(
     system: &mut RunSystem<'_, F>,
     matrix: &mut BlockTridiagonal<2>,
     plain: Outcome,
-    budget: &mut usize,
+    budget: &mut Budget,
 ) -> (Outcome, Stage) {
-    if *budget == 0 {
+    // The last word costs something too.
+    let last_word = cost(system, PLAIN.iterations);
+    if budget.left() <= last_word {
         return (plain, Stage::Plain);
     }
     let plain_state = system.state();
     let mut rounded = system.rounded();
-    let mut rescue = Rescue::new(&rounded, *budget);
+    budget.spend(last_word);
+    let mut rescue = Rescue::new(&rounded, std::mem::take(budget));
     let stage = rescue.run(&mut rounded, matrix);
-    *budget = rescue.budget;
     system.take_from_rounded(&rounded);
     let rescued = newton(system, matrix, PLAIN);
+    *budget = rescue.budget;
+    budget.put_back(Budget::new(last_word - cost(system, rescued.iterations)));
     let iterations = plain.iterations + rescue.iterations + rescued.iterations;
     if rescued.residual > SOLVED && plain.residual <= SOLVED {
         system.set_state(&plain_state);
@@ -105,17 +127,25 @@ pub(in crate::four_param) fn search<F: FourParamFamily>(
 fn solve_round<F: FourParamFamily>(
     system: &mut RunSystem<'_, F>,
     matrix: &mut BlockTridiagonal<2>,
+    budget: &mut Budget,
     arcs: Vec<[f64; 4]>,
 ) -> Option<Outcome> {
     let before = std::mem::replace(&mut system.parameters, arcs);
-    let round = newton(system, matrix, Limits { iterations: 0, patience: 0 });
-    if round.residual <= SOLVED {
-        Some(newton(system, matrix, PLAIN))
+    let mut round = newton(system, matrix, Limits { iterations: 0, patience: 0 });
+    let is_round = round.residual <= SOLVED;
+    if is_round {
+        round = newton(system, matrix, PLAIN);
     } else {
         system.parameters = before;
         system.evaluate();
-        None
     }
+    budget.spend(cost(system, 1 + round.iterations));
+    is_round.then_some(round)
+}
+
+/// Segment evaluations of Newton's method that has taken so many steps.
+fn cost<F: FourParamFamily>(system: &RunSystem<'_, F>, steps: usize) -> usize {
+    (steps + 1) * system.parameters.len()
 }
 
 /// What is wrong with a state; less is better.
@@ -128,6 +158,8 @@ struct Badness {
 }
 
 impl Badness {
+    const NONE: Badness = Badness { unsettled: 0, loops: 0 };
+
     fn of<F: FourParamFamily>(system: &RunSystem<'_, F>) -> Self {
         Badness {
             unsettled: (0..system.knots.len()).filter(|&i| is_unsettled(system, i)).count(),
@@ -140,23 +172,51 @@ fn is_unsettled<F: FourParamFamily>(system: &RunSystem<'_, F>, knot: usize) -> b
     !(system.knot_residual(knot) <= UNSETTLED)
 }
 
+/// What orders states of which the best is kept; less is better.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Merit {
+    badness: Badness,
+    /// Largest over all knots.
+    residual: f64,
+    /// [`RunSystem::total_bend`].
+    bend: f64,
+}
+
+impl Merit {
+    /// By what is wrong; where that is the same, settled states by how much they bend, others by how
+    /// far they are from settling.
+    fn cmp(&self, other: &Merit) -> Ordering {
+        self.badness.cmp(&other.badness).then_with(|| {
+            if self.badness.unsettled == 0 {
+                self.bend.total_cmp(&other.bend)
+            } else {
+                self.residual.total_cmp(&other.residual)
+            }
+        })
+    }
+}
+
 /// The best state of the whole run so far.
 struct Best {
     state: State,
-    badness: Badness,
-    residual: f64,
+    merit: Merit,
     stage: Stage,
 }
 
 impl Best {
+    fn of<F: FourParamFamily>(system: &RunSystem<'_, F>, residual: f64, stage: Stage) -> Best {
+        let merit = Merit { badness: Badness::of(system), residual, bend: system.total_bend() };
+        Best { state: system.state(), merit, stage }
+    }
+
     fn is_good(&self) -> bool {
-        self.residual <= SOLVED && self.badness.loops == 0
+        self.merit.residual <= SOLVED && self.merit.badness.loops == 0
     }
 }
 
 /// Stages 2 to 4 on one run.
 struct Rescue {
-    budget: usize,
+    budget: Budget,
     random: Random,
     /// The sign of the run's first turn: seeds mirror with the run.
     sense: f64,
@@ -164,13 +224,14 @@ struct Rescue {
 }
 
 impl Rescue {
-    fn new<F: FourParamFamily>(system: &RunSystem<'_, F>, budget: usize) -> Self {
+    fn new<F: FourParamFamily>(system: &RunSystem<'_, F>, budget: Budget) -> Self {
         let first = system.knots.iter().find(|knot| knot.turn.abs() > 1e-6);
         let sense = first.map_or(1.0, |knot| knot.turn.signum());
         Rescue { budget, random: Random(0), sense, iterations: 0 }
     }
 
-    /// Leaves the best state found in `system`, and says which stage it comes from.
+    /// Leaves the best state found in `system`, and says which stage it comes from. Once the
+    /// run is solved, what is kept for relaxing serves to be rid of loops.
     fn run<F: FourParamFamily>(
         &mut self,
         system: &mut RunSystem<'_, F>,
@@ -180,38 +241,44 @@ impl Rescue {
         const COST: usize = 40;
         let n = system.knots.len();
         let residual = self.newton(system, matrix, LONG).residual;
-        let mut best = Best {
-            state: system.state(),
-            badness: Badness::of(system),
-            residual,
-            stage: Stage::Plain,
-        };
+        let mut best = Best::of(system, residual, Stage::Plain);
         if n > 3 && self.bridge(system) {
             self.settle(system, matrix, Stage::Bridged, &mut best);
             if best.is_good() {
                 return best.stage;
             }
         }
-        system.set_state(&best.state);
-        if (best.badness.unsettled as f64) < FEW * n as f64 {
+        self.return_to(system, &best.state);
+        if (best.merit.badness.unsettled as f64) < FEW * n as f64 {
             self.mend(system);
         }
         let mut stage = Stage::Mended;
-        if n > 4 && self.budget > n * COST && Badness::of(system).unsettled > 0 {
+        if n > 4 && self.budget.left() > n * COST && Badness::of(system).unsettled > 0 {
             self.grow(system);
             let (grown, badness) = (system.state(), Badness::of(system));
             self.newton(system, matrix, Limits { iterations: 8, patience: 8 });
             if Badness::of(system) > badness {
-                system.set_state(&grown);
+                self.return_to(system, &grown);
             }
             stage = Stage::Grown;
         }
         loop {
             self.mend(system);
             self.settle(system, matrix, stage, &mut best);
-            system.set_state(&best.state);
-            if self.budget == 0 || best.is_good() {
+            self.return_to(system, &best.state);
+            if best.is_good() {
+                let found_in = best.stage;
+                self.straighten(system);
+                self.settle(system, matrix, found_in, &mut best);
+                self.return_to(system, &best.state);
                 return best.stage;
+            }
+            let is_solved = best.merit.residual <= SOLVED;
+            if self.budget.is_spent() {
+                if !(is_solved && self.budget.release()) {
+                    return best.stage;
+                }
+                self.straighten(system);
             }
         }
     }
@@ -225,15 +292,16 @@ impl Rescue {
         best: &mut Best,
     ) {
         let residual = self.newton(system, matrix, LONG).residual;
-        let badness = Badness::of(system);
-        if (badness, residual) < (best.badness, best.residual) {
-            *best = Best { state: system.state(), badness, residual, stage };
+        let now = Best::of(system, residual, stage);
+        if now.merit.cmp(&best.merit) == Ordering::Less {
+            *best = now;
         }
     }
 
     fn solve_window<F: FourParamFamily>(&mut self, window: &mut RunSystem<'_, F>) -> Outcome {
         let mut matrix = BlockTridiagonal::new(window.knots.len(), window.is_closed());
-        self.newton(window, &mut matrix, WINDOW)
+        let outcome = newton_while(window, &mut matrix, WINDOW, is_promising);
+        self.count(window, outcome)
     }
 
     fn newton<F: FourParamFamily>(
@@ -243,13 +311,23 @@ impl Rescue {
         limits: Limits,
     ) -> Outcome {
         let outcome = newton(system, matrix, limits);
+        self.count(system, outcome)
+    }
+
+    fn count<F: FourParamFamily>(
+        &mut self,
+        system: &RunSystem<'_, F>,
+        outcome: Outcome,
+    ) -> Outcome {
         self.iterations += outcome.iterations;
-        self.spend((outcome.iterations + 1) * system.parameters.len());
+        self.budget.spend(cost(system, outcome.iterations));
         outcome
     }
 
-    fn spend(&mut self, work: usize) {
-        self.budget = self.budget.saturating_sub(work);
+    /// Comes back to a state.
+    fn return_to<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>, state: &State) {
+        system.set_state(state);
+        self.budget.spend(system.parameters.len());
     }
 }
 
@@ -270,5 +348,33 @@ impl Random {
         z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
         z ^= z >> 31;
         (z >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn merit(unsettled: usize, loops: usize, residual: f64, bend: f64) -> Merit {
+        Merit { badness: Badness { unsettled, loops }, residual, bend }
+    }
+
+    /// What is settled comes before what has fewer loops, and that before what bends less.
+    #[test]
+    fn states_are_ordered_by_what_is_wrong_then_by_bend_or_residual() {
+        let ordered = [
+            merit(0, 0, 1e-12, 9.0),
+            merit(0, 1, 1e-12, 3.0),
+            merit(0, 1, 1e-14, 4.0),
+            merit(0, 2, 1e-14, 1.0),
+            merit(1, 0, 1e-3, 8.0),
+            merit(1, 0, 2e-3, 1.0),
+            merit(1, 0, f64::NAN, 1.0),
+        ];
+        for (i, a) in ordered.iter().enumerate() {
+            for (j, b) in ordered.iter().enumerate() {
+                assert_eq!(a.cmp(b), i.cmp(&j), "{a:?} {b:?}");
+            }
+        }
     }
 }
