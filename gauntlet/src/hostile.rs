@@ -454,10 +454,7 @@ mod tests {
     use super::*;
 
     fn splines() -> Splines {
-        SPLINES
-            .iter()
-            .map(|name| (*name, catalog::spline(name).unwrap()))
-            .collect()
+        SPLINES.iter().map(|name| (*name, catalog::spline(name).unwrap())).collect()
     }
 
     #[test]
