@@ -9,8 +9,8 @@ use crate::outline::Join;
 use crate::spline::Spline;
 
 use super::{
-    bespoke, circle, euler, generated, hobby, ikarus, kappa, kurgla1, lagrange, log_aesthetic,
-    polygon, spiro,
+    akima, bespoke, circle, euler, generated, hobby, ikarus, kappa, kurgla1, lagrange,
+    log_aesthetic, polygon, spiro,
 };
 
 /// Every spline, in the order in which lists show them.
@@ -26,6 +26,7 @@ pub const ENTRIES: &[&SplineInfo] = &[
     &kappa::INFO,
     &circle::INFO,
     &ikarus::INFO,
+    &akima::INFO,
     &lagrange::INFO,
     &polygon::INFO,
 ];

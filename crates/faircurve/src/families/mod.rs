@@ -1,5 +1,6 @@
 //! The splines, one folder each, and the catalogue that names them.
 
+pub mod akima;
 pub mod bespoke;
 pub mod catalog;
 pub mod circle;
