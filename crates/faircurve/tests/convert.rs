@@ -1,9 +1,13 @@
 //! Every spline of the catalogue as Béziers, measured independently of the bounds.
 
+use std::sync::Arc;
+
 use faircurve::catalog::{self, ENTRIES, ParamKind, Params};
 use faircurve::convert::{Conversion, Options, convert};
-use faircurve::kurbo::{ParamCurve, ParamCurveNearest, PathSeg};
+use faircurve::kurbo::{ParamCurve, ParamCurveNearest, PathSeg, Point};
+use faircurve::segment::{Measured, ParametricCurve};
 use faircurve::{Contour, Curve, Join, Knot, Segment, Spline, solve};
+use num_complex::Complex64;
 
 /// Drawings of about 1000 units: (name, knots, closed).
 fn drawings() -> Vec<(&'static str, Contour)> {
@@ -163,6 +167,52 @@ fn curves_of_beziers_pass_through() {
             // Straight ones are lines.
             assert!(result.quadratics <= quadratics * segments, "{name}");
             assert!(result.cubics <= cubics * segments, "{name}");
+        }
+    }
+}
+
+/// A cubic that doesn't say that it is one.
+#[derive(Debug)]
+struct Disguised([Complex64; 4]);
+
+impl ParametricCurve for Disguised {
+    fn point(&self, u: f64) -> Complex64 {
+        let [p0, p1, p2, p3] = self.0;
+        let v = 1.0 - u;
+        p0 * (v * v * v) + p1 * (3.0 * v * v * u) + p2 * (3.0 * v * u * u) + p3 * (u * u * u)
+    }
+
+    fn velocity_series(&self, u: f64) -> [Complex64; 5] {
+        let [p0, p1, p2, p3] = self.0;
+        let [a, b, c] = [p1 - p0, p2 - p1, p3 - p2].map(|arm| arm * 3.0);
+        let v = 1.0 - u;
+        let (first, second) = (b - a, c - b);
+        let here = a * (v * v) + b * (2.0 * u * v) + c * (u * u);
+        [here, (first * v + second * u) * 2.0, second - first, Complex64::ZERO, Complex64::ZERO]
+    }
+
+    fn bezier(&self, _from: f64, _to: f64) -> Option<PathSeg> {
+        None
+    }
+}
+
+#[test]
+fn cusps_of_curves_that_are_no_beziers_are_kept_within_the_accuracy() {
+    let point = Complex64::new;
+    // Arms that cross: a cusp, and ever sharper bends and loops about it; then cusps at the ends.
+    let crossing = [0.0, 1e-9, -1e-9, 1e-6, -1e-6, 1e-3, -1e-3, 0.1, -0.1]
+        .map(|off| [point(0.0, 0.0), point(1.0 + off, 0.7), point(-off, 0.7), point(1.0, 0.0)]);
+    let at_ends = [
+        [point(0.0, 0.0), point(0.0, 0.0), point(0.3, 0.7), point(1.0, 0.0)],
+        [point(0.0, 0.0), point(0.3, 0.7), point(1.0, 0.0), point(1.0, 0.0)],
+    ];
+    for points in crossing.into_iter().chain(at_ends) {
+        let unit = Arc::new(Measured::new(Disguised(points)));
+        let (start, end) = (Point::new(100.0, 20.0), Point::new(900.0, 600.0));
+        let curve = Curve::new(vec![Segment::unit_curve(start, end, unit)], false);
+        for (accuracy, most) in [(1.0, 8), (0.1, 12), (1e-3, 24)] {
+            let checked = check(&curve, accuracy, most);
+            assert_eq!(checked, Ok(()), "{points:?} at {accuracy}");
         }
     }
 }

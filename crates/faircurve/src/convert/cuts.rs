@@ -295,14 +295,19 @@ pub(super) fn greedy(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
 }
 
 /// What starts at `here` in a range is never cut shorter than this, so that the work is bounded: by 4097
-/// pieces a segment. No more than the rest of the segment, as the next one may be much shorter.
+/// pieces a segment, and as many for each break, about which a curve may have a cusp. No more than the rest
+/// of the segment, as the next one may be much shorter.
 pub(super) fn shortest(fitter: &Fitter<'_>, here: f64, range: [f64; 2]) -> f64 {
     const MOST_PIECES: f64 = 4096.0;
     /// A rest below this part of the segment is rounding.
     const LEAST_REST: f64 = 1e-9;
     let (segment, local) = fitter.stretch.locate(here);
     let length = segment.length().min(range[1] - range[0]);
-    (length / MOST_PIECES).min((segment.length() - local).max(LEAST_REST * length))
+    let mut shortest = length / MOST_PIECES;
+    if segment.breaks().into_iter().any(|s| s > local && s < local + shortest) {
+        shortest /= MOST_PIECES;
+    }
+    shortest.min((segment.length() - local).max(LEAST_REST * length))
 }
 
 fn first_guess(fitter: &Fitter<'_>, from: f64, to: f64) -> f64 {
