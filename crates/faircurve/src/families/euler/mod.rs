@@ -7,6 +7,7 @@ use std::fmt;
 use kurbo::Point;
 
 use super::catalog::{Claim, ParamKind, ParamSpec, Params, SplineInfo};
+use super::shapes;
 use super::spiro::PolynomialSpirals;
 use crate::four_param::spline::ConstraintSpline;
 use crate::frame::{ChordAngles, EndCurvature};
@@ -26,11 +27,14 @@ pub const INFO: SplineInfo = SplineInfo {
     name: "euler",
     summary: "Euler spirals with continuous curvature",
     source: "thesis 4.6, 8.2, 8.3.1",
-    params: &[ParamSpec {
-        name: "end",
-        summary: "what holds at free ends: a circular arc, or zero curvature",
-        kind: ParamKind::Choice { options: &["arc", "zero-curvature"] },
-    }],
+    params: &[
+        ParamSpec {
+            name: "end",
+            summary: "what holds at free ends: a circular arc, or zero curvature",
+            kind: ParamKind::Choice { options: &["arc", "zero-curvature"] },
+        },
+        shapes::SHAPE,
+    ],
     default_join: Join::G2,
     joins: &[Join::Corner, Join::G1, Join::G2],
     ends: &["arc", "zero-curvature"],
@@ -45,8 +49,20 @@ pub const INFO: SplineInfo = SplineInfo {
         Claim::Symmetric,
         Claim::Ripple(0.267_949_192),
     ],
-    build: |params| Ok(Box::new(Euler::from_params(params))),
+    build: |params| Ok(build(params)),
 };
+
+fn build(params: &Params) -> Box<dyn Spline> {
+    let end = match params.choice("end", "arc") {
+        "zero-curvature" => NaturalEnd::ZeroCurvature,
+        _ => NaturalEnd::Arc,
+    };
+    if params.choice(shapes::SHAPE.name, "own") == "own" {
+        return Box::new(Euler::new(end));
+    }
+    let rule = Continuity { map: EulerSpirals, end };
+    Box::new(TwoParamSpline::new(&INFO, rule, shapes::chosen(params, EulerSpirals)))
+}
 
 /// The Euler spiral spline.
 #[derive(Clone, Copy, Debug)]
@@ -65,13 +81,6 @@ impl Euler {
     fn new(end: NaturalEnd) -> Self {
         let rule = Continuity { map: EulerSpirals, end };
         Euler { spline: TwoParamSpline::new(&INFO, rule, EulerSpirals), end }
-    }
-
-    fn from_params(params: &Params) -> Self {
-        Euler::new(match params.choice("end", "arc") {
-            "zero-curvature" => NaturalEnd::ZeroCurvature,
-            _ => NaturalEnd::Arc,
-        })
     }
 
     /// The same run for a four-parameter spline whose G2 segments are Euler spirals.

@@ -10,7 +10,8 @@ use crate::frame::wrap_angle;
 use crate::outline::Join;
 use crate::plan::Run;
 use crate::segment::{Measured, Segment, UnitBezier};
-use crate::spline::{Effort, RunSolution, Spline};
+use crate::spline::{Effort, Place, Relaxation, RunSolution, Spline};
+use crate::tolerance::SOLVED;
 use crate::two_param::tangents::ignored_curvature;
 
 /// The catalogue's row.
@@ -87,15 +88,34 @@ impl Spline for Lagrange {
         let points = |i: usize| (run.knots[i].point, run.knots[(i + 1) % n].point);
         let segments: Vec<Segment> =
             pieces.iter().enumerate().map(|(i, piece)| piece.place(points(i))).collect();
-        let off = |tangent: Option<f64>, direction: f64| {
-            tangent.map_or(0.0, |tangent| wrap_angle(direction - tangent).abs())
-        };
         let (first, last) = (&segments[0], &segments[segments.len() - 1]);
-        let residual = off(run.knots[0].tangent, first.direction(0.0))
-            .max(off(run.knots[n - 1].tangent, last.direction(last.length())));
+        let ends = [(0, first.direction(0.0)), (n - 1, last.direction(last.length()))];
+        let mut residual = 0.0f64;
+        let mut relaxed = Vec::new();
+        for (knot, direction) in ends {
+            let off = |tangent: f64| wrap_angle(direction - tangent).abs();
+            let off = run.knots[knot].tangent.map_or(0.0, off);
+            if off <= SOLVED {
+                residual = residual.max(off);
+            } else {
+                relaxed.push(free_end(knot));
+            }
+        }
         let adapted =
             (0..n).filter(|&i| run.knots[i].curvature.is_some()).map(ignored_curvature).collect();
-        RunSolution { segments, adapted, residual, ..RunSolution::default() }
+        RunSolution { segments, relaxed, adapted, residual, ..RunSolution::default() }
+    }
+}
+
+/// An end whose given direction is lost in rounding, beside chords in absurd ratios.
+fn free_end(knot: usize) -> Relaxation {
+    Relaxation {
+        place: Place::Knot(knot),
+        asked: "tangent",
+        got: "free",
+        reason: "the cubic here is so much longer than the segment that rounding turns its end; \
+                 move a knot, or leave the direction out"
+            .to_owned(),
     }
 }
 
