@@ -245,6 +245,10 @@ proptest! {
             let added = place.point(at * place.length());
             longer.knots.insert(segment + 1, Knot::new(added));
             let after = solved(&longer, spline);
+            // What takes a search has several curves, and the added knot may lead to another.
+            if before.report.stage != Stage::Plain || after.report.stage != Stage::Plain {
+                return;
+            }
             // At ends of four-parameter runs one more condition holds, which the arc end lacks.
             let is_end = !contour.closed && (segment == 0 || segment + 1 == contour.segment_count());
             if is_end && info.claims.contains(&Claim::Parameters(4)) {
