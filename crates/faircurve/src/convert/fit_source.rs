@@ -12,7 +12,7 @@ use crate::segment::Segment;
 ///
 /// Finding the segment takes time proportional to their number. Corners at knots are reported by
 /// `break_cusp`; cusps inside segments aren't. The moment integrals are sums over segments, each by Gauss–Legendre
-/// quadrature over panels that turn by at most [`PANEL`] radians, so that they are exact to rounding: 1e-14 of the
+/// quadrature over panels that turn by at most 2 radians, so that they are exact to rounding: 1e-14 of the
 /// area of the piece's box and of its products with coordinates.
 ///
 /// ```
