@@ -4,6 +4,7 @@ pub mod akima;
 pub mod bespoke;
 pub mod catalog;
 pub mod circle;
+pub mod ends;
 pub mod euler;
 pub mod generated;
 pub mod hobby;

@@ -6,7 +6,8 @@ use std::fmt;
 
 use kurbo::Point;
 
-use super::catalog::{Claim, ParamKind, ParamSpec, Params, SplineInfo};
+use super::catalog::{Claim, Params, SplineInfo};
+use super::ends;
 use super::shapes;
 use super::spiro::PolynomialSpirals;
 use crate::four_param::spline::ConstraintSpline;
@@ -27,17 +28,10 @@ pub const INFO: SplineInfo = SplineInfo {
     name: "euler",
     summary: "Euler spirals with continuous curvature",
     source: "thesis 4.6, 8.2, 8.3.1",
-    params: &[
-        ParamSpec {
-            name: "end",
-            summary: "what holds at free ends: a circular arc, or zero curvature",
-            kind: ParamKind::Choice { options: &["arc", "zero-curvature"] },
-        },
-        shapes::SHAPE,
-    ],
+    params: &[ends::END, shapes::SHAPE],
     default_join: Join::G2,
     joins: &[Join::Corner, Join::G1, Join::G2],
-    ends: &["arc", "zero-curvature"],
+    ends: ends::NAMES,
     claims: &[
         Claim::Parameters(2),
         Claim::Continuity(2),
@@ -53,10 +47,7 @@ pub const INFO: SplineInfo = SplineInfo {
 };
 
 fn build(params: &Params) -> Box<dyn Spline> {
-    let end = match params.choice("end", "arc") {
-        "zero-curvature" => NaturalEnd::ZeroCurvature,
-        _ => NaturalEnd::Arc,
-    };
+    let end = ends::chosen(params);
     if params.choice(shapes::SHAPE.name, "own") == "own" {
         return Box::new(Euler::new(end));
     }

@@ -8,6 +8,7 @@ pub use curve::{Generated, GeneratedCut, NotGenerating};
 pub use formula::{FUNCTIONS, Formula, FormulaError};
 
 use super::catalog::{CatalogError, Claim, ParamKind, ParamSpec, Params, SplineInfo};
+use super::ends;
 use super::euler::EulerSpirals;
 use super::shapes::{self, SHAPE};
 use crate::frame::{ChordAngles, EndCurvature, direction};
@@ -39,15 +40,14 @@ pub const INFO: SplineInfo = SplineInfo {
             kind: ParamKind::Text { default: DEFAULT },
         },
         ParamSpec {
-            name: "end",
             summary: "what holds at free ends: equal end tangents, or zero curvature",
-            kind: ParamKind::Choice { options: &["arc", "zero-curvature"] },
+            ..ends::END
         },
         SHAPE,
     ],
     default_join: Join::G2,
     joins: &[Join::Corner, Join::G1, Join::G2],
-    ends: &["arc", "zero-curvature"],
+    ends: ends::NAMES,
     claims: &[
         Claim::Parameters(2),
         Claim::Continuity(2),
@@ -94,10 +94,7 @@ impl GeneratedSpline {
         let curve = Generated::from_formula(formula).map_err(|e| {
             error(e.to_string(), "curvature that is odd in `s`, or of one sign".to_owned())
         })?;
-        let end = match params.choice("end", "arc") {
-            "zero-curvature" => NaturalEnd::ZeroCurvature,
-            _ => NaturalEnd::Arc,
-        };
+        let end = ends::chosen(params);
         let shape = shapes::chosen(params, Cuts { curve: curve.clone() });
         Ok(GeneratedSpline::with(curve, end, shape))
     }

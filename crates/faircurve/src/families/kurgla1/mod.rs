@@ -8,14 +8,15 @@ use std::sync::Arc;
 
 use kurbo::Point;
 
-use super::catalog::{Claim, ParamKind, ParamSpec, Params, SplineInfo};
+use super::catalog::{Claim, Params, SplineInfo};
+use super::ends;
 use super::euler::EulerSpirals;
 use super::shapes::{self, SHAPE};
 use crate::frame::ChordAngles;
 use crate::outline::Join;
 use crate::segment::Segment;
 use crate::spline::Spline;
-use crate::two_param::continuity::{Continuity, NaturalEnd};
+use crate::two_param::continuity::Continuity;
 use crate::two_param::curvature_map::{CurvatureMap, EndCurvatures, SegmentContext};
 use crate::two_param::shape::{SegmentEnds, SegmentShape, StandIn};
 use crate::two_param::spline::TwoParamSpline;
@@ -28,17 +29,10 @@ pub const INFO: SplineInfo = SplineInfo {
     name: "kurgla1",
     summary: "curvature linear along each chord, continuous at knots: Mehlum's KURGLA 1",
     source: "thesis 3.11, 4.9",
-    params: &[
-        ParamSpec {
-            name: "end",
-            summary: "what holds at free ends: a circular arc, or zero curvature",
-            kind: ParamKind::Choice { options: &["arc", "zero-curvature"] },
-        },
-        SHAPE,
-    ],
+    params: &[ends::END, SHAPE],
     default_join: Join::G2,
     joins: &[Join::Corner, Join::G1, Join::G2],
-    ends: &["arc", "zero-curvature"],
+    ends: ends::NAMES,
     claims: &[
         Claim::Parameters(2),
         Claim::Continuity(2),
@@ -51,10 +45,7 @@ pub const INFO: SplineInfo = SplineInfo {
 };
 
 fn build(params: &Params) -> Box<dyn Spline> {
-    let end = match params.choice("end", "arc") {
-        "zero-curvature" => NaturalEnd::ZeroCurvature,
-        _ => NaturalEnd::Arc,
-    };
+    let end = ends::chosen(params);
     let rule = Continuity { map: SiMecs, end };
     Box::new(TwoParamSpline::new(&INFO, rule, shapes::chosen(params, SiMecs)))
 }

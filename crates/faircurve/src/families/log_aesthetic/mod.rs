@@ -6,6 +6,7 @@ mod curve;
 pub use curve::{LogAesthetic, LogAestheticCut};
 
 use super::catalog::{Claim, ParamKind, ParamSpec, SplineInfo};
+use super::ends;
 use super::shapes::{self, SHAPE};
 use crate::outline::Join;
 use crate::plan::Run;
@@ -34,16 +35,12 @@ pub const INFO: SplineInfo = SplineInfo {
                 max: LogAesthetic::MOST,
             },
         },
-        ParamSpec {
-            name: "end",
-            summary: "what holds at free ends: a circular arc, or zero curvature",
-            kind: ParamKind::Choice { options: &["arc", "zero-curvature"] },
-        },
+        ends::END,
         SHAPE,
     ],
     default_join: Join::G2,
     joins: &[Join::Corner, Join::G1, Join::G2],
-    ends: &["arc", "zero-curvature"],
+    ends: ends::NAMES,
     claims: &[
         Claim::Parameters(2),
         Claim::Continuity(2),
@@ -56,10 +53,7 @@ pub const INFO: SplineInfo = SplineInfo {
         Claim::Ripple(0.168_966_183_775_840_7),
     ],
     build: |params| {
-        let end = match params.choice("end", "arc") {
-            "zero-curvature" => NaturalEnd::ZeroCurvature,
-            _ => NaturalEnd::Arc,
-        };
+        let end = ends::chosen(params);
         let curve = LogAesthetic::new(params.number("alpha", PREFERRED));
         let rule = AlongAlpha { curve, end };
         let shape = shapes::chosen(params, Cuts { curve });
