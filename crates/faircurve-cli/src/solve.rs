@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use faircurve::{Effort, Solution};
+use faircurve::Effort;
 use faircurve_format::SolvedGlyph;
 use rayon::prelude::*;
 
@@ -18,7 +18,7 @@ use crate::select::{self, Job};
 /// Read, select, solve, format, write, report.
 pub(crate) fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     let output = Output::new(args)?;
-    let (beziers, effort) = (BezierOptions::new(args)?, effort(args)?);
+    let (beziers, effort) = (BezierOptions::new(args)?, args::effort(args.effort.as_deref())?);
     let sources = input::read(&args.inputs, args.from.as_deref())?;
     let jobs = select::select(sources, args)?;
     let (solved, converted) = solve(&jobs, &beziers, effort)?;
@@ -28,13 +28,6 @@ pub(crate) fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
         beziers::report(&jobs, &converted);
     }
     Ok(report::report(&jobs, &solved, args.allow_relaxed))
-}
-
-fn effort(args: &SolveArgs) -> Result<Effort, Failure> {
-    let allowed = |factor: &f64| *factor >= 0.0 && factor.is_finite();
-    let read = |text: &str| args::number("effort", text, "a number from 0", allowed);
-    let factor = args.effort.as_deref().map(read).transpose()?;
-    Ok(factor.map_or_else(Effort::default, Effort::times))
 }
 
 /// Solves every glyph, over all cores. The first input that is at fault fails the whole.
@@ -58,15 +51,7 @@ fn solve_glyph(
     beziers: &BezierOptions,
     effort: Effort,
 ) -> Result<(SolvedGlyph, Vec<Converted>), Failure> {
-    let solve = |(index, (contour, spline)): (usize, &(_, Box<dyn faircurve::Spline>))| {
-        let solution: Solution =
-            faircurve::solve_with(contour, &**spline, effort).map_err(|error| {
-                Failure::new(error.to_string()).hint(error.hint()).within(&job.place(index))
-            })?;
-        Ok((spline.name().to_owned(), solution))
-    };
-    let contours: Result<Vec<_>, Failure> = job.contours.iter().enumerate().map(solve).collect();
-    let mut glyph = SolvedGlyph::unconverted(&job.name, &job.layer, contours?);
+    let mut glyph = SolvedGlyph::unconverted(&job.name, &job.layer, job.solve(effort)?);
     let converted = beziers.convert(&mut glyph);
     Ok((glyph, converted))
 }
