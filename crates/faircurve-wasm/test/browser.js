@@ -17,6 +17,9 @@ export async function withPage(folder, use) {
   const server = createServer((request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url, "http://localhost").pathname));
     const file = join(folder, path);
+    // Isolated pages have clocks of 5 µs instead of 100.
+    response.setHeader("cross-origin-opener-policy", "same-origin");
+    response.setHeader("cross-origin-embedder-policy", "require-corp");
     if (path === "/empty") return void response.setHeader("content-type", "text/html").end("<!doctype html>");
     if (path === "/favicon.ico") return void response.writeHead(204).end();
     if (!existsSync(file)) return void response.writeHead(404).end();
