@@ -10,7 +10,7 @@ use crate::spline::Spline;
 
 use super::{
     akima, bespoke, circle, euler, generated, hobby, ikarus, kappa, kurgla1, lagrange,
-    log_aesthetic, polygon, spiro,
+    log_aesthetic, mec, polygon, spiro,
 };
 
 /// Every spline, in the order in which lists show them.
@@ -20,6 +20,7 @@ pub const ENTRIES: &[&SplineInfo] = &[
     &euler::INFO,
     &log_aesthetic::INFO,
     &generated::INFO,
+    &mec::INFO,
     &kurgla1::INFO,
     &hobby::INFO,
     &bespoke::INFO,

@@ -13,6 +13,7 @@ pub mod kappa;
 pub mod kurgla1;
 pub mod lagrange;
 pub mod log_aesthetic;
+pub mod mec;
 pub mod polygon;
 pub mod potrace;
 pub mod shapes;

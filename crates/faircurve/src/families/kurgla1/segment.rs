@@ -9,7 +9,7 @@ use num_complex::Complex64;
 use super::along::Along;
 use crate::families::euler::FitError;
 use crate::frame::{ChordAngles, EndCurvature};
-use crate::numeric::elastica::{ElasticaState, Stretch, stretches};
+use crate::numeric::elastica_series::{ElasticaState, Stretch, stretches};
 use crate::segment::UnitCurve;
 use crate::two_param::curvature_map::EndCurvatures;
 
