@@ -10,7 +10,7 @@ use crate::spline::Spline;
 
 use super::{
     akima, bespoke, circle, euler, generated, hobby, ikarus, kappa, kurgla1, lagrange,
-    log_aesthetic, mec, polygon, spiro,
+    log_aesthetic, mec, polygon, simec, spiro,
 };
 
 /// Every spline, in the order in which lists show them.
@@ -21,6 +21,7 @@ pub const ENTRIES: &[&SplineInfo] = &[
     &log_aesthetic::INFO,
     &generated::INFO,
     &mec::INFO,
+    &simec::INFO,
     &kurgla1::INFO,
     &hobby::INFO,
     &bespoke::INFO,

@@ -17,4 +17,5 @@ pub mod mec;
 pub mod polygon;
 pub mod potrace;
 pub mod shapes;
+pub mod simec;
 pub mod spiro;

@@ -5,6 +5,7 @@
 pub mod block_tridiagonal;
 pub(crate) mod dual;
 pub mod elastica;
+#[cfg(test)]
 pub(crate) mod elastica_series;
 pub mod elliptic;
 pub mod fresnel;

@@ -135,6 +135,12 @@ impl Elasticas {
         segment::fit(angles, self.constant * chord * chord)
     }
 
+    /// ∫ κ² ds and the arc length of a segment; `None` if there is none.
+    pub(super) fn energy_and_length(&self, ends: &SegmentEnds) -> Option<[f64; 2]> {
+        let fit = self.fit(ends.angles, ends.context.chord).ok()?;
+        Some(fit.energy_and_length(ends.context.chord))
+    }
+
     /// The segment that stands most in the way of tangents that weren't found, and why, in words.
     fn why_none(&self, tangents: &Tangents) -> (&'static str, usize, String) {
         let reach = |ends: &SegmentEnds| match self.fit(ends.angles, ends.context.chord) {
@@ -149,23 +155,24 @@ impl Elasticas {
     }
 }
 
-/// In words that don't depend on the contour's direction.
+/// Both end tangents from the chord, the larger first, in words that don't depend on the contour's
+/// direction: what counts is whether both turn the same way.
+pub(super) fn in_degrees(angles: ChordAngles) -> String {
+    let (a, b) = (angles.theta0.to_degrees(), angles.theta1.to_degrees());
+    let (a, b) = if a.abs() < b.abs() { (b, a) } else { (a, b) };
+    format!("{:.0}° and {:.0}°", a.abs(), b * a.signum() + 0.0)
+}
+
+/// In words for a designer.
 fn why_none(angles: ChordAngles, reach: f64, elasticas: &Elasticas) -> String {
-    let degrees = |angles: ChordAngles| {
-        let (a, b) = (angles.theta0.to_degrees(), angles.theta1.to_degrees());
-        let (a, b) = if a.abs() < b.abs() { (b, a) } else { (a, b) };
-        // What matters is whether both turn the same way.
-        let sign = if a < 0.0 { -1.0 } else { 1.0 };
-        format!("{:.0}° and {:.0}°", sign * a, sign * b + 0.0)
-    };
-    let angles_of = degrees(angles);
+    let angles_of = in_degrees(angles);
     if elasticas.constant != 0.0 {
         return format!(
             "no curve of least energy was found; this segment would have to meet its chord at \
              {angles_of}. Add a knot where the curve turns most, or raise `penalty`"
         );
     }
-    let bound = degrees(envelope(angles.theta1.atan2(angles.theta0)));
+    let bound = in_degrees(envelope(angles.theta1.atan2(angles.theta0)));
     if reach > 1.0 {
         format!(
             "this segment would have to meet its chord at {angles_of}, but beyond {bound} a longer \

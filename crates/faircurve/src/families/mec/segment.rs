@@ -90,16 +90,20 @@ pub(super) struct Fit {
     straightness: Dual<3>,
     /// Curvatures at the ends, for unit chord.
     curvatures: [Dual<3>; 2],
+    /// The chord along the force, times the force.
+    along: f64,
 }
 
 impl Fit {
-    fn new(state: [f64; 3]) -> Fit {
+    pub(super) fn new(state: [f64; 3]) -> Fit {
         let state_with = std::array::from_fn(|i| Dual::variable(state[i], i));
         let UnitArc { x, y, half_turn, lean, ends } = Elastica::unit_arc::<Dual<3>>(state_with);
         let square = x * x + y * y;
         let straightness = square.sqrt();
         let constant = state_with[2] * square;
+        let force = Elastica::new(state[0], state[1], state[2]).force();
         Fit {
+            along: force.re * x.value + force.im * y.value,
             state,
             reached: [half_turn * 2.0, (lean - y.atan2(x)) * 2.0, constant],
             straightness,
@@ -130,6 +134,14 @@ impl Fit {
             length: 1.0 / self.straightness.value,
             curvatures: self.curvatures.map(|curvature| curvature.value),
         }
+    }
+
+    /// ∫ κ² ds and the arc length on a chord of this length.
+    pub(super) fn energy_and_length(&self, chord: f64) -> [f64; 2] {
+        let length = chord / self.straightness.value;
+        // κ² = 2(b cos θ − C): the force times the way along it.
+        let [_, _, constant] = self.state;
+        [2.0 * (self.along - constant) / length, length]
     }
 
     /// How the curvatures at both ends answer changes of turning, difference of angles, and C.
