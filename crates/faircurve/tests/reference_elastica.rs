@@ -3,12 +3,14 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 use std::path::Path;
+use std::sync::Arc;
 
 use faircurve::families::mec::{NoMec, envelope, fit_mec};
+use faircurve::families::mvc::{MvcCurve, fit_mvc};
 use faircurve::frame::{ChordAngles, wrap_angle};
 use faircurve::kurbo::{Point, Vec2};
 use faircurve::numeric::elastica::Elastica;
-use faircurve::{Contour, Segment, Solution, Status, catalog, solve};
+use faircurve::{Contour, Segment, Solution, Status, UnitCurve, catalog, solve};
 use serde_json::Value;
 
 fn load(name: &str) -> Value {
@@ -191,4 +193,63 @@ fn how_far_the_minimum_energy_curve_is_from_the_circle() {
     assert!((order - 4.0).abs() < 0.01, "{order}");
     // Half turns are the bound: there the two segments have the inflections at their ends.
     assert!(fit_mec(ChordAngles::new(FRAC_PI_2 - 1e-6, FRAC_PI_2 - 1e-6), 0.0).is_ok());
+}
+
+#[test]
+fn minimum_variation_segments() {
+    let file = load("mvc.json");
+    for row in list(&file["segments"]) {
+        for (angles, start, end) in images(row) {
+            let fit = fit_mvc(angles, [start, end]).unwrap();
+            let length = number(&row["length"]);
+            assert!(
+                (fit.length - length).abs() < 1e-11 * length,
+                "{angles:?}: {}",
+                fit.length - length
+            );
+            let curve = MvcCurve::new(fit.k, 0.0).unwrap();
+            let segment = Segment::unit_curve(Point::ZERO, Point::new(1.0, 0.0), Arc::new(curve));
+            let energy = number(&row["energy"]);
+            let off = segment.variation_energy() / energy - 1.0;
+            assert!(off.abs() < 1e-10, "{angles:?}: {off:e}");
+        }
+        // Its derivatives at the start.
+        let (angles, start, end) = images(row)[0];
+        let fit = fit_mvc(angles, [start, end]).unwrap();
+        let curve = MvcCurve::new(fit.k, 0.0).unwrap();
+        let jet = curve.curvature_jet(0.0);
+        let size = number(&row["d3kappa_start"]).abs().max(1.0);
+        for (order, name) in ["kappa_start", "dkappa_start", "d2kappa_start", "d3kappa_start"]
+            .into_iter()
+            .enumerate()
+        {
+            assert!((jet[order] - number(&row[name])).abs() < 1e-10 * size, "{name}");
+        }
+    }
+}
+
+#[test]
+fn minimum_variation_splines() {
+    let file = load("mvc.json");
+    for (name, set) in file["splines"].as_object().unwrap() {
+        let solution = solved(&contour(set), "mvc");
+        println!("{name} {} {}", solution.report.residual, solution.report.iterations);
+        let curvatures = numbers(&set["curvature"]);
+        let slopes = numbers(&set["dcurvature"]);
+        let size = curvatures.iter().fold(0.0f64, |most, k| most.max(k.abs()));
+        for (i, tangent) in numbers(&set["tangent"]).into_iter().enumerate() {
+            let knot = &solution.knots[i];
+            let ours = knot.direction_out.or(knot.direction_in).unwrap();
+            assert!(wrap_angle(ours - tangent).abs() < 1e-11, "{name} {i}: {:e}", ours - tangent);
+            let ours = knot.curvature_out.or(knot.curvature_in).unwrap();
+            assert!((ours - curvatures[i]).abs() < 1e-11 * size, "{name} {i}: {ours}");
+            let Some(segment) = solution.curve.segments().get(i) else { continue };
+            let slope = segment.curvature_jet(0.0)[1];
+            assert!((slope - slopes[i]).abs() < 1e-10 * size, "{name} {i}: {slope}");
+        }
+        let energy: f64 = solution.curve.segments().iter().map(Segment::variation_energy).sum();
+        let expected = number(&set["energy"]);
+        assert!((energy - expected).abs() < 1e-10 * expected.max(1e-10), "{name}: {energy:e}");
+        assert!((solution.curve.length() / number(&set["length"]) - 1.0).abs() < 1e-11, "{name}");
+    }
 }

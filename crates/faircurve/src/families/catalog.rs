@@ -10,13 +10,14 @@ use crate::spline::Spline;
 
 use super::{
     akima, bespoke, circle, euler, generated, hobby, ikarus, kappa, kurgla1, lagrange,
-    log_aesthetic, mec, polygon, simec, spiro,
+    log_aesthetic, mec, mvc, polygon, simec, spiro,
 };
 
 /// Every spline, in the order in which lists show them.
 #[rustfmt::skip]
 pub const ENTRIES: &[&SplineInfo] = &[
     &spiro::INFO,
+    &mvc::INFO,
     &euler::INFO,
     &log_aesthetic::INFO,
     &generated::INFO,

@@ -14,6 +14,7 @@ pub mod kurgla1;
 pub mod lagrange;
 pub mod log_aesthetic;
 pub mod mec;
+pub mod mvc;
 pub mod polygon;
 pub mod potrace;
 pub mod shapes;
