@@ -184,6 +184,12 @@ impl Elastica {
         [k, k1, -(0.5 * k * k + constant) * k, -(1.5 * k * k + constant) * k1]
     }
 
+    /// ∫ κ² ds over the arc from −½ to ½: twice the force along it less C (thesis eq. 3.23).
+    pub fn arc_energy(&self) -> f64 {
+        let (chord, _) = self.centred_arc(1.0);
+        2.0 * ((self.force().conj() * chord).re - self.terms.constant)
+    }
+
     /// The arc from −s/2 to s/2: its chord, seen from the direction in the middle, and the directions
     /// at both ends.
     pub(crate) fn centred_arc(&self, s: f64) -> (Complex64, [f64; 2]) {

@@ -1,7 +1,9 @@
 //! The minimum energy curve, the elastic spline: pieces of the rectangular elastica joined with
 //! continuous curvature (thesis sections 3.10, 4.1, 4.2).
 
+mod forces;
 mod segment;
+mod solutions;
 
 use kurbo::Point;
 
@@ -20,8 +22,10 @@ use crate::two_param::shape::{SegmentEnds, SegmentShape, StandIn};
 use crate::two_param::spline::TwoParamSpline;
 use crate::two_param::tangents::{TangentRule, Tangents};
 
+pub use forces::{force_in, forces_at_knots};
 use segment::Fit;
 pub use segment::{MecSegment, NoMec, envelope, fit_mec};
+pub use solutions::{all_of_length, all_rectangular, fit_of_length};
 
 /// The name of the parameter c.
 const PENALTY: &str = "penalty";

@@ -5,7 +5,7 @@ use std::fmt;
 
 use num_complex::Complex64;
 
-use crate::frame::{ChordAngles, EndCurvature};
+use crate::frame::{ChordAngles, EndCurvature, wrap_angle};
 use crate::numeric::dual::{Dual, Real};
 use crate::numeric::elastica::{Elastica, UnitArc};
 use crate::numeric::roots::monotone_root;
@@ -72,26 +72,60 @@ pub fn fit_mec(angles: ChordAngles, constant: f64) -> Result<MecSegment, NoMec> 
 pub(super) fn fit(angles: ChordAngles, constant: f64) -> Result<Fit, NoMec> {
     /// Beyond, the segment is straight but for its very ends, and its middle knows nothing of them.
     const STRONGEST: f64 = 4000.0;
-    let asked = [angles.theta0 + angles.theta1, angles.theta1 - angles.theta0, constant];
-    if !(constant.abs() <= STRONGEST && asked[0].is_finite() && asked[1].is_finite()) {
+    if !(constant.abs() <= STRONGEST && angles.theta0.is_finite() && angles.theta1.is_finite()) {
         return Err(NoMec::OutOfRange);
     }
-    newton(asked).ok_or(NoMec::BeyondEnvelope)
+    let asked = Asked::new(angles, Last::Constant(constant));
+    let found = newton(&asked, [0.0, 0.0, constant]).ok_or(NoMec::BeyondEnvelope)?;
+    // The sheet of the straight line ends where the determinant is 0.
+    let is_on_sheet = determinant(&found.by(&asked)) > 0.0;
+    is_on_sheet.then_some(found).ok_or(NoMec::BeyondEnvelope)
+}
+
+/// What is asked of a segment.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Asked {
+    /// Turning, and difference of the end angles.
+    ends: [f64; 2],
+    last: Last,
+    /// Whether whole turns don't count at either end.
+    wraps: bool,
+}
+
+/// What is asked beside end tangents.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Last {
+    /// C, for unit chord.
+    Constant(f64),
+    /// Chord over arc length.
+    Straightness(f64),
+}
+
+impl Asked {
+    pub(super) fn new(angles: ChordAngles, last: Last) -> Asked {
+        let ends = [angles.theta0 + angles.theta1, angles.theta1 - angles.theta0];
+        Asked { ends, last, wraps: false }
+    }
+
+    /// The same, with any whole turns at both ends.
+    pub(super) fn up_to_turns(self) -> Asked {
+        Asked { wraps: true, ..self }
+    }
 }
 
 /// A place in the space of elastica, and how what is asked for answers changes there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fit {
     /// κ, κ′ and C in the middle, for arc length 1.
-    state: [f64; 3],
-    /// Turning, difference of the end angles, and C for unit chord, by the state.
-    reached: [Dual<3>; 3],
+    pub(super) state: [f64; 3],
+    /// Turning and difference of the end angles.
+    ends: [Dual<3>; 2],
+    /// C for unit chord.
+    constant: Dual<3>,
     /// Chord over arc length.
     straightness: Dual<3>,
     /// Curvatures at the ends, for unit chord.
     curvatures: [Dual<3>; 2],
-    /// The chord along the force, times the force.
-    along: f64,
 }
 
 impl Fit {
@@ -101,24 +135,37 @@ impl Fit {
         let square = x * x + y * y;
         let straightness = square.sqrt();
         let constant = state_with[2] * square;
-        let force = Elastica::new(state[0], state[1], state[2]).force();
         Fit {
-            along: force.re * x.value + force.im * y.value,
             state,
-            reached: [half_turn * 2.0, (lean - y.atan2(x)) * 2.0, constant],
+            ends: [half_turn * 2.0, (lean - y.atan2(x)) * 2.0],
+            constant,
             straightness,
             curvatures: ends.map(|curvature| curvature * straightness),
         }
     }
 
-    /// What is left to reach.
-    fn off(&self, asked: [f64; 3]) -> [f64; 3] {
-        std::array::from_fn(|i| asked[i] - self.reached[i].value)
+    fn last(&self, asked: &Asked) -> (Dual<3>, f64) {
+        match asked.last {
+            Last::Constant(constant) => (self.constant, constant),
+            Last::Straightness(straightness) => (self.straightness, straightness),
+        }
     }
 
-    /// The change of the state that makes up for this, to first order.
-    fn answer(&self, off: [f64; 3]) -> [f64; 3] {
-        solve(&self.reached.map(|reached| reached.by), off)
+    /// What is left to reach.
+    fn off(&self, asked: &Asked) -> [f64; 3] {
+        let [mut turning, mut difference] = [0, 1].map(|i| asked.ends[i] - self.ends[i].value);
+        if asked.wraps {
+            let theta0 = wrap_angle((turning - difference) / 2.0);
+            let theta1 = wrap_angle((turning + difference) / 2.0);
+            (turning, difference) = (theta0 + theta1, theta1 - theta0);
+        }
+        let (last, wanted) = self.last(asked);
+        [turning, difference, wanted - last.value]
+    }
+
+    /// How what is asked responds to the state, by rows.
+    fn by(&self, asked: &Asked) -> [[f64; 3]; 3] {
+        [self.ends[0].by, self.ends[1].by, self.last(asked).0.by]
     }
 
     /// The elastica for arc length 1.
@@ -127,7 +174,7 @@ impl Fit {
         Elastica::new(curvature, slope, constant)
     }
 
-    fn segment(&self, angles: ChordAngles) -> MecSegment {
+    pub(super) fn segment(&self, angles: ChordAngles) -> MecSegment {
         MecSegment {
             angles,
             elastica: self.elastica(),
@@ -139,17 +186,16 @@ impl Fit {
     /// ∫ κ² ds and the arc length on a chord of this length.
     pub(super) fn energy_and_length(&self, chord: f64) -> [f64; 2] {
         let length = chord / self.straightness.value;
-        // κ² = 2(b cos θ − C): the force times the way along it.
-        let [_, _, constant] = self.state;
-        [2.0 * (self.along - constant) / length, length]
+        [self.elastica().arc_energy() / length, length]
     }
 
     /// How the curvatures at both ends answer changes of turning, difference of angles, and C.
     fn by_asked(&self) -> [[f64; 3]; 2] {
+        let rows = [self.ends[0].by, self.ends[1].by, self.constant.by];
         let states = [0, 1, 2].map(|i| {
             let mut unit = [0.0; 3];
             unit[i] = 1.0;
-            self.answer(unit)
+            solve(&rows, unit)
         });
         self.curvatures.map(|curvature| {
             states.map(|state| (0..3).map(|i| curvature.by[i] * state[i]).sum::<f64>())
@@ -182,21 +228,25 @@ fn solve(rows: &[[f64; 3]; 3], right: [f64; 3]) -> [f64; 3] {
     })
 }
 
-/// Newton's method from the straight line. `None` where it doesn't arrive, or not on the sheet of
-/// the straight line, which ends where the determinant is 0.
-fn newton(asked: [f64; 3]) -> Option<Fit> {
+/// Newton's method. `None` where it doesn't arrive.
+pub(super) fn newton(asked: &Asked, start: [f64; 3]) -> Option<Fit> {
     const MOST_STEPS: usize = 24;
     /// Radians that a step may bend the segment.
     const MOST_BEND: f64 = 0.7;
-    /// What is off in the end, at most.
+    /// What is off in the end, at most, where tension or compression isn't large.
     const CLOSE: f64 = 1e-12;
-    let mut here = Fit::new([0.0, 0.0, asked[2]]);
+    let close = |fit: &Fit| CLOSE * (1.0 + 0.1 * fit.state[2].abs());
+    let scale = match asked.last {
+        Last::Constant(constant) => 1.0 + constant.abs(),
+        Last::Straightness(_) => 1.0,
+    };
+    let mut here = Fit::new(start);
     let mut best: Option<(f64, Fit)> = None;
     for _ in 0..MOST_STEPS {
         let off = here.off(asked);
-        let missed = off[0].abs().max(off[1].abs()).max(off[2].abs() / (1.0 + asked[2].abs()));
+        let missed = off[0].abs().max(off[1].abs()).max(off[2].abs() / scale);
         let least = best.map_or(f64::INFINITY, |(least, _)| least);
-        if !off.iter().all(|off| off.is_finite()) || (least < CLOSE && missed >= least) {
+        if !off.iter().all(|off| off.is_finite()) || (least < close(&here) && missed >= least) {
             break;
         }
         if missed < least {
@@ -205,15 +255,13 @@ fn newton(asked: [f64; 3]) -> Option<Fit> {
         if missed < 2.0 * f64::EPSILON {
             break;
         }
-        let step = here.answer(off);
+        let step = solve(&here.by(asked), off);
         let bend = step[0].abs() / 2.0 + step[1].abs() / 8.0;
         let pull = step[2].abs() / (4.0 + here.state[2].abs());
         let share = (MOST_BEND / bend.max(pull)).min(1.0);
         here = Fit::new(std::array::from_fn(|i| here.state[i] + share * step[i]));
     }
-    let (missed, found) = best?;
-    let rows = found.reached.map(|reached| reached.by);
-    (missed <= CLOSE && determinant(&rows) > 0.0).then_some(found)
+    best.filter(|(missed, found)| *missed <= close(found)).map(|(_, found)| found)
 }
 
 /// The outermost end tangents of minimum energy curves in a direction of the (theta0, theta1)
@@ -256,7 +304,7 @@ fn outermost(middle: &Elastica) -> ChordAngles {
         Fit::new([state.curvature(), state.slope(), 0.0])
     };
     let slides = |length: f64| {
-        let [turning, difference, _] = piece(length).reached;
+        let [turning, difference] = piece(length).ends;
         turning.by[0] * difference.by[1] - turning.by[1] * difference.by[0]
     };
     let mut length = STEP;
@@ -264,7 +312,7 @@ fn outermost(middle: &Elastica) -> ChordAngles {
         length += STEP;
     }
     let length = monotone_root(slides, length, length + STEP).unwrap_or(length);
-    let [turning, difference, _] = piece(length).reached.map(|reached| reached.value);
+    let [turning, difference] = piece(length).ends.map(|end| end.value);
     ChordAngles::new((turning - difference) / 2.0, (turning + difference) / 2.0)
 }
 
