@@ -107,7 +107,9 @@ impl Spline for Mec {
         if solved.relaxed.is_empty() {
             return solved;
         }
-        let euler = euler_instead(run, effort, spline.rule().elasticas.why_none(&tangents));
+        let rule = spline.rule();
+        let last = rule.walk(run).err().flatten().unwrap_or(tangents);
+        let euler = euler_instead(run, effort, rule.elasticas.why_none(&last));
         RunSolution { adapted: solved.adapted, ..euler }
     }
 }
@@ -145,17 +147,51 @@ impl Elasticas {
         Some(fit.energy_and_length(ends.context.chord))
     }
 
-    /// The segment that stands most in the way of tangents that weren't found, and why, in words.
+    /// Whether there is a segment for each of these tangents.
+    fn exist(&self, tangents: &Tangents) -> bool {
+        tangents.ends.iter().all(|ends| self.fit(ends.angles, ends.context.chord).is_ok())
+    }
+
+    /// The segment that stands in the way of a curve that was nearly found, and why, in words.
     fn why_none(&self, tangents: &Tangents) -> (&'static str, usize, String) {
-        let reach = |ends: &SegmentEnds| match self.fit(ends.angles, ends.context.chord) {
-            Err(_) if self.constant != 0.0 => f64::INFINITY,
-            _ => segment::reach(ends.angles),
+        /// Segments that are looked at closely.
+        const CLOSELY: usize = 3;
+        let size = |i: &usize| {
+            let ChordAngles { theta0, theta1 } = tangents.ends[*i].angles;
+            theta0.hypot(theta1)
         };
-        let reaches: Vec<f64> = tangents.ends.iter().map(reach).collect();
-        let worst = (0..reaches.len()).max_by(|&i, &j| reaches[i].total_cmp(&reaches[j]));
-        let worst = worst.unwrap_or(0);
-        let angles = tangents.ends.get(worst).map_or(ChordAngles::default(), |ends| ends.angles);
-        (INFO.name, worst, why_none(angles, reaches.get(worst).copied().unwrap_or(0.0), self))
+        let mut widest: Vec<usize> = (0..tangents.ends.len()).collect();
+        widest.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        let reaches =
+            widest.iter().take(CLOSELY).map(|&i| (segment::reach(tangents.ends[i].angles), i));
+        let worst = reaches.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |(_, i)| i);
+        let Some(ends) = tangents.ends.get(worst) else {
+            return (INFO.name, 0, "no curve of least energy was found".to_owned());
+        };
+        (INFO.name, worst, self.why_none_here(ends))
+    }
+
+    /// In words for a designer.
+    fn why_none_here(&self, ends: &SegmentEnds) -> String {
+        let is_too_strong = |ends: &SegmentEnds| {
+            self.fit(ends.angles, ends.context.chord) == Err(NoMec::OutOfRange)
+        };
+        if is_too_strong(ends) {
+            return "the penalty is so strong that the curve would be straight but for its very \
+                    knots; lower `penalty`"
+                .to_owned();
+        }
+        let met = in_degrees(ends.angles);
+        let advice = "Add a knot where the curve turns most";
+        let grows = format!(
+            "no curve has least energy here: set free, this segment would grow without end. Under the \
+             least tension that holds it, it meets its chord at {met}"
+        );
+        if self.constant != 0.0 {
+            return format!("{grows}. {advice}, or raise `penalty`");
+        }
+        let bound = in_degrees(envelope(ends.angles.theta1.atan2(ends.angles.theta0)));
+        format!("{grows}; without tension the bound is {bound}. {advice}, or set `penalty`")
     }
 }
 
@@ -165,31 +201,6 @@ pub(super) fn in_degrees(angles: ChordAngles) -> String {
     let (a, b) = (angles.theta0.to_degrees(), angles.theta1.to_degrees());
     let (a, b) = if a.abs() < b.abs() { (b, a) } else { (a, b) };
     format!("{:.0}° and {:.0}°", a.abs(), b * a.signum() + 0.0)
-}
-
-/// In words for a designer.
-fn why_none(angles: ChordAngles, reach: f64, elasticas: &Elasticas) -> String {
-    let angles_of = in_degrees(angles);
-    if elasticas.constant != 0.0 {
-        return format!(
-            "no curve of least energy was found; this segment would have to meet its chord at \
-             {angles_of}. Add a knot where the curve turns most, or raise `penalty`"
-        );
-    }
-    let bound = in_degrees(envelope(angles.theta1.atan2(angles.theta0)));
-    if reach > 1.0 {
-        format!(
-            "this segment would have to meet its chord at {angles_of}, but beyond {bound} a longer \
-             curve always has less energy, so that there is no least. Add a knot where the curve \
-             turns most, or set `penalty`"
-        )
-    } else {
-        format!(
-            "no curve of least energy was found; the segment nearest to the bound is this, which \
-             would meet its chord at {angles_of}, the bound being {bound}. Add a knot where the curve \
-             turns most, or set `penalty`"
-        )
-    }
 }
 
 impl CurvatureMap for Elasticas {
@@ -254,20 +265,55 @@ impl TangentRule for ByWayOfPenalties {
         Self::continuity(self.elasticas.constant).tangents(run)
     }
 
-    fn search(&self, run: &Run, effort: Effort) -> Tangents {
-        /// Parts of the penalty with which the curve is nearly of least length · energy.
-        const PARTS: [f64; 8] = [1.0, 0.7, 0.5, 0.35, 0.2, 0.1, 0.03, 0.0];
-        let euler = Continuity { map: EulerSpirals, end: NaturalEnd::ZeroCurvature };
-        let mut tangents = euler.tangents(run);
-        let squares = mean_square_curvature(&tangents);
-        for part in PARTS {
-            let constant = self.elasticas.constant - part * squares / 2.0;
-            tangents = Self::continuity(constant).tangents_from(run, Some(&tangents));
+    fn search(&self, run: &Run, _effort: Effort) -> Tangents {
+        match self.walk(run) {
+            Ok(tangents) => tangents,
+            Err(_) => self.tangents(run),
         }
-        if tangents.residual() <= SOLVED {
-            return tangents;
+    }
+}
+
+impl ByWayOfPenalties {
+    /// From a curve of nearly least length times energy, or under more tension if need be, to the one
+    /// asked for. Where the way ends, because the last curve that exists could have less energy by
+    /// being longer, that last curve; `None` if there was no first one.
+    fn walk(&self, run: &Run) -> Result<Tangents, Option<Tangents>> {
+        /// Times the penalty of the first curve.
+        const MORE: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
+        /// Of the logarithm of the penalty, which is kept finite by a share of the first one's.
+        const STEP: f64 = 0.6;
+        const SHARE: f64 = 0.125;
+        /// Where steps of this size lead nowhere, the way ends. With a tenth of it, of 400 random
+        /// contours none more is solved.
+        const LEAST_STEP: f64 = 0.02;
+        let euler = Continuity { map: EulerSpirals, end: NaturalEnd::ZeroCurvature }.tangents(run);
+        let squares = mean_square_curvature(&euler);
+        let asked = -2.0 * self.elasticas.constant;
+        let least = SHARE * squares;
+        let at = |log: f64, from: &Tangents| {
+            let penalty = if log == (asked + least).ln() { asked } else { log.exp() - least };
+            let elasticas = Elasticas { constant: -penalty / 2.0 };
+            let rule = Continuity { map: elasticas, end: NaturalEnd::ZeroCurvature };
+            let found = rule.tangents_from(run, Some(from));
+            (found.residual() <= SOLVED && elasticas.exist(&found)).then_some(found)
+        };
+        let first = MORE.iter().find_map(|more| {
+            let log = (more * squares + least).ln();
+            at(log, &euler).map(|found| (log, found))
+        });
+        let Some((mut log, mut here)) = first else { return Err(None) };
+        let goal = (asked + least).ln();
+        let mut step = STEP;
+        while log != goal {
+            let next =
+                if (goal - log).abs() <= step { goal } else { log + step.copysign(goal - log) };
+            match at(next, &here) {
+                Some(found) => (here, log) = (found, next),
+                None if step > LEAST_STEP => step /= 3.0,
+                None => return Err(Some(here)),
+            }
         }
-        Self::continuity(self.elasticas.constant).search(run, effort)
+        Ok(here)
     }
 }
 

@@ -114,7 +114,7 @@ impl Asked {
 }
 
 /// A place in the space of elastica, and how what is asked for answers changes there.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Fit {
     /// κ, κ′ and C in the middle, for arc length 1.
     pub(super) state: [f64; 3],

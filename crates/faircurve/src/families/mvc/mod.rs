@@ -8,7 +8,7 @@ use std::sync::Arc;
 use kurbo::Point;
 
 use super::catalog::{Claim, SplineInfo};
-use super::spiro::PolynomialSpirals;
+use super::spiro::{PolynomialSpirals, Spiro};
 use crate::four_param::family::{FourParamFamily, Response};
 use crate::four_param::spline::ConstraintSpline;
 use crate::numeric::block_tridiagonal::invert;
@@ -16,7 +16,8 @@ use crate::numeric::dual::{Dual, Real};
 use crate::outline::Join;
 use crate::plan::Run;
 use crate::segment::Segment;
-use crate::spline::{Effort, RunSolution, Spline};
+use crate::spline::{Effort, Place, Relaxation, RunSolution, Spline};
+use crate::tolerance::LOOP;
 
 pub use curve::MvcCurve;
 pub use hermite::{MvcSegment, fit_mvc, fit_mvc_of_length};
@@ -65,9 +66,40 @@ impl Spline for Mvc {
         ConstraintSpline::new(MinimumVariation).solve_plainly(run)
     }
 
+    /// Where the curve found winds or is relaxed, and that of polynomial spirals, which is nearly the
+    /// same curve, less so, the whole run is drawn as the latter.
     fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution {
-        ConstraintSpline::new(MinimumVariation).solve_run(run, effort.of_costlier(COST))
+        let own = ConstraintSpline::new(MinimumVariation).solve_run(run, effort.of_costlier(COST));
+        let (longest, segment) = longest(&own);
+        if own.relaxed.is_empty() && longest <= LOOP {
+            return own;
+        }
+        let spirals = Spiro.solve_plainly(run).unwrap_or_else(|| Spiro.solve_run(run, effort));
+        let reason = if spirals.relaxed.len() < own.relaxed.len() {
+            "no curve of minimum variation was found that joins as asked; this segment is the longest \
+             of those found. Add a knot where the curve turns most"
+                .to_owned()
+        } else if spirals.relaxed.len() == own.relaxed.len()
+            && self::longest(&spirals).0 < longest / 2.0
+        {
+            format!(
+                "the curve of minimum variation found would wind: this segment would be {longest:.0} \
+                 chords long. Add a knot where the curve turns most"
+            )
+        } else {
+            return own;
+        };
+        let place = Place::Segment(segment);
+        let instead = Relaxation { place, asked: INFO.name, got: "spiro", reason };
+        let relaxed = std::iter::once(instead).chain(spirals.relaxed).collect();
+        RunSolution { relaxed, iterations: own.iterations + spirals.iterations, ..spirals }
     }
+}
+
+/// The largest ratio of arc length to chord, and the segment that has it.
+fn longest(solved: &RunSolution) -> (f64, usize) {
+    let ratios = solved.segments.iter().map(|segment| segment.length() / segment.chord_length());
+    ratios.zip(0..).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((1.0, 0))
 }
 
 /// The family of segments that obey κ⁗ + κ²κ″ − ½κκ′² = 0 (thesis eq. 7.20), which is κ″ = λy with a
