@@ -17,8 +17,8 @@ use super::elliptic::{Elliptic, complete_k};
 /// An elastica, by its curvature κ and its slope κ′ at a place of reference, s = 0, and the constant
 /// C of κ″ + ½κ³ + Cκ = 0 (thesis eq. 3.10).
 ///
-/// C is the tension where κ = 0, in units of the bending stiffness; it is 0 for the rectangular
-/// elastica, and −κ²/2 on a circle. Every elastica is one of the family by
+/// C is the thrust where κ = 0, in units of the bending stiffness: positive where the strip is
+/// compressed, negative where it is pulled. It is 0 for the rectangular elastica, and −κ²/2 on a circle. Every elastica is one of the family by
 /// [`lambda`](Self::lambda), scaled and turned.
 ///
 /// ```
@@ -103,24 +103,31 @@ impl Elastica {
         self.terms.p.sqrt()
     }
 
-    /// The force that what lies beyond any place exerts there, in the frame of s = 0: the same
-    /// everywhere (thesis 3.4, 3.6). Along the curve it is the tension ½κ² + C (eq. 3.23), across it κ′.
+    /// The force that what lies beyond any place exerts there, in the frame of s = 0 and in units of the
+    /// bending stiffness: the same everywhere (thesis 3.4, 3.6). Its parts are the tension −(½κ² + C)
+    /// along the curve and −κ′ to its left.
     pub fn force(&self) -> Complex64 {
-        Complex64::new(self.terms.tension, self.terms.k1)
+        -self.axis()
     }
 
-    /// The tension ½κ² + C at arc length `s` (thesis eq. 3.23).
-    pub fn tension(&self, s: f64) -> f64 {
+    /// The direction from which θ is measured, as long as the force.
+    fn axis(&self) -> Complex64 {
+        Complex64::new(self.terms.thrust, self.terms.k1)
+    }
+
+    /// The thrust ½κ² + C at arc length `s`, positive where the strip is compressed. (It is T of thesis
+    /// eq. 3.23, which has the sign of thrust, not of tension.)
+    pub fn thrust(&self, s: f64) -> f64 {
         let curvature = self.at(s).curvature;
         0.5 * curvature * curvature + self.terms.constant
     }
 
     /// A point of the line of action and its direction, in the frame of s = 0: the line along the
-    /// force on which curvature would be zero, from which it grows with distance (eq. 3.13). `None`
+    /// force, against it, on which curvature would be zero, from which it grows with distance (eq. 3.13). `None`
     /// for circles and straight lines without force.
     pub fn line_of_action(&self) -> Option<(Complex64, f64)> {
         let Terms { k, b, .. } = self.terms;
-        let along = self.force() / b;
+        let along = self.axis() / b;
         let foot = Complex64::i() * along * (k / b);
         foot.is_finite().then(|| (foot, along.arg()))
     }
@@ -184,10 +191,10 @@ impl Elastica {
         [k, k1, -(0.5 * k * k + constant) * k, -(1.5 * k * k + constant) * k1]
     }
 
-    /// ∫ κ² ds over the arc from −½ to ½: twice the force along it less C (thesis eq. 3.23).
+    /// ∫ κ² ds over the arc from −½ to ½: twice the thrust along it less C (thesis eq. 3.23).
     pub fn arc_energy(&self) -> f64 {
         let (chord, _) = self.centred_arc(1.0);
-        2.0 * ((self.force().conj() * chord).re - self.terms.constant)
+        2.0 * ((self.axis().conj() * chord).re - self.terms.constant)
     }
 
     /// The arc from −s/2 to s/2: its chord, seen from the direction in the middle, and the directions
@@ -213,10 +220,10 @@ struct Terms<T> {
     /// C.
     constant: T,
     /// ½κ² + C = b cos θ.
-    tension: T,
+    thrust: T,
     /// The force.
     b: T,
-    /// b + tension and b − tension, without cancellation.
+    /// b + thrust and b − thrust, without cancellation.
     plus: T,
     minus: T,
     /// 2(b − C), the square of the largest curvature.
@@ -230,21 +237,21 @@ struct Terms<T> {
 impl<T: Real> Terms<T> {
     fn new(k: T, k1: T, constant: T) -> Self {
         let square = k * k;
-        let tension = square * 0.5 + constant;
-        let b = (tension * tension + k1 * k1).sqrt();
+        let thrust = square * 0.5 + constant;
+        let b = (thrust * thrust + k1 * k1).sqrt();
         // b² − C², which is (b − C)(b + C).
         let q = k1 * k1 + square * (square * 0.25 + constant);
         let over = |top: T, bottom: T| top / (bottom + f64::MIN_POSITIVE);
-        let (pulled, pressed) = (tension.value() < 0.0, constant.value() > 0.0);
+        let (pulled, pressed) = (thrust.value() < 0.0, constant.value() > 0.0);
         let slopes = k1 * k1;
         Terms {
             k,
             k1,
             constant,
-            tension,
+            thrust,
             b,
-            plus: if pulled { over(slopes, b - tension) } else { b + tension },
-            minus: if pulled { b - tension } else { over(slopes, b + tension) },
+            plus: if pulled { over(slopes, b - thrust) } else { b + thrust },
+            minus: if pulled { b - thrust } else { over(slopes, b + thrust) },
             p: if pressed { over(q, b + constant) * 2.0 } else { (b - constant) * 2.0 },
             w: b * 4.0,
             excess: if pressed { (b + constant) * 2.0 } else { over(q, b - constant) * 2.0 },
@@ -277,13 +284,13 @@ impl<T: Real> Terms<T> {
     fn chord(&self, e: &Elliptic<T>) -> (T, T) {
         let over = e.n * e.c / self.denominator(e);
         let hh = e.h * e.h;
-        // 1 + 8(b − T)·T·h²; where the curve is pulled straight, all of it but (1 − d)² cancels.
-        let along = if self.tension.value() < 0.0 {
+        // 1 + 8(b − T)·T·h², T the thrust; where the curve is pulled straight, all of it but (1 − d)² cancels.
+        let along = if self.thrust.value() < 0.0 {
             e.d * (-e.d + 2.0) + self.plus * hh * (self.b * 3.0 - self.plus) * 8.0
         } else {
-            self.minus * self.tension * hh * 8.0 + 1.0
+            self.minus * self.thrust * hh * 8.0 + 1.0
         };
-        let x = (over * along + self.tension * e.j * 4.0) * 4.0;
+        let x = (over * along + self.thrust * e.j * 4.0) * 4.0;
         let y = self.k1 * (e.j + self.minus * over * hh * 2.0) * 16.0;
         (x, y)
     }
@@ -295,7 +302,7 @@ impl<T: Real> Terms<T> {
 
     /// How far the mean of the arc's end directions is from that of the place.
     fn lean(&self, e: &Elliptic<T>) -> T {
-        let along = if self.tension.value() < 0.0 {
+        let along = if self.thrust.value() < 0.0 {
             e.d + self.plus * e.h * 2.0
         } else {
             -self.minus * e.h * 2.0 + 1.0
@@ -347,9 +354,8 @@ mod tests {
 
     /// The end of an arc by the ODE's power series, in the frame of s = 0.
     fn by_series(elastica: &Elastica, s: f64) -> ElasticaState {
-        // There the force is along +y: κ′ = b cos φ, so that φ is a quarter less than θ … turned.
-        let force = elastica.force();
-        let (b, turn) = (force.norm(), force.arg());
+        let axis = elastica.axis();
+        let (b, turn) = (axis.norm(), axis.arg());
         // κ′ = −b sin θ with θ = −turn + direction, and −sin θ = cos(θ + π/2).
         let start = ElasticaState {
             point: Complex64::ZERO,
@@ -465,7 +471,7 @@ mod tests {
             let distance = -((here.point - foot) * Complex64::cis(-along)).im;
             let expected = elastica.force().norm() * distance;
             assert!((here.curvature - expected).abs() < 1e-13, "{s} {}", here.curvature - expected);
-            assert!((elastica.tension(s) - moved.force().re).abs() < 1e-13);
+            assert!((elastica.thrust(s) + moved.force().re).abs() < 1e-13);
         }
         assert!(Elastica::new(2.0, 0.0, -2.0).line_of_action().is_none());
     }

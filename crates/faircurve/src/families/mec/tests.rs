@@ -154,7 +154,7 @@ fn forces_are_in_equilibrium() {
             let [before, after] = [i - 1, i].map(|i| &solution.curve.segments()[i]);
             let jump = after.curvature_jet(0.0)[1] - before.curvature_jet(before.length())[1];
             assert!(forces[i].dot(tangent).abs() < 1e-12, "{penalty} {i}");
-            assert!((tangent.cross(forces[i]) + jump).abs() < 1e-12, "{penalty} {i}");
+            assert!((tangent.cross(forces[i]) - jump).abs() < 1e-12, "{penalty} {i}");
         }
     }
     let euler = solve(&contour, &*crate::catalog::spline("euler").unwrap()).unwrap();
