@@ -1,19 +1,31 @@
-//! What keeps the documentation current.
+//! What keeps the documentation current, and what installs the C libraries.
 //!
 //! ```sh
 //! cargo xtask pictures            # draw docs/figures/NAME-space.svg and NAME-map.svg of every family
 //! cargo xtask pictures --check    # fail if a committed one isn't what the code draws
 //! cargo xtask pictures --png DIR  # the same as PNG, to look at
 //! cargo xtask speeds              # measure the table in docs/speeds.md
+//! cargo xtask header              # write crates/faircurve-capi/include/faircurve.h
+//! cargo xtask header --check      # fail if the committed one isn't what cbindgen makes
+//! cargo xtask install-capi --prefix P   # build libspiro.so.1 and libfaircurve.so.0, install them with all that belongs to them
 //! ```
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "this is a program")]
 
 mod family;
+mod header;
+mod install_capi;
 mod pictures;
 mod speeds;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+
+const USAGE: &str = "\
+there is no such command
+hint: cargo xtask pictures [--check | --png DIR]
+      cargo xtask speeds
+      cargo xtask header [--check]
+      cargo xtask install-capi --prefix DIR";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -23,7 +35,10 @@ fn main() -> ExitCode {
         ["pictures", "--check"] => pictures::check(),
         ["pictures", "--png", folder] => pictures::draw_png(Path::new(folder)),
         ["speeds"] => speeds::write(),
-        _ => Err("usage: cargo xtask pictures [--check | --png DIR], or cargo xtask speeds".into()),
+        ["header"] => header::write(),
+        ["header", "--check"] => header::check(),
+        ["install-capi", "--prefix", prefix] => install_capi::install(Path::new(prefix)),
+        _ => Err(USAGE.into()),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

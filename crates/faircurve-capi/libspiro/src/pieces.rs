@@ -1,0 +1,216 @@
+//! A solved segment as lines, cubics, quadratics or arcs, as the caller asks.
+//!
+//! How near they are: libspiro halves a segment until no piece bends by more than a radian, and draws
+//! each half as one piece. How far *that* would be from the curve is worked out here for every segment
+//! ([`coarse_error`]), and the fewest pieces are taken that come nearer.
+
+use std::f64::consts::FRAC_PI_2;
+use std::ffi::c_int;
+
+use faircurve::convert::{self, Cuts, Fit, Metric, Options};
+use faircurve::kurbo::{ParamCurveNearest, PathEl, Point, QuadBez, Vec2};
+use faircurve::{Curve, Segment};
+
+/// A piece, without its start, which is where the pen is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Piece {
+    /// A straight line to the point.
+    Line(Point),
+    /// A quadratic Bézier, or an arc through the first point to the second.
+    Quad(Point, Point),
+    /// A cubic Bézier.
+    Cubic(Point, Point, Point),
+}
+
+/// The form of curved pieces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Form {
+    Cubic,
+    Arc,
+    Quadratic,
+}
+
+/// What kind of pieces is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Kind {
+    form: Form,
+    /// The bend in radians above which libspiro halves a piece, and how often it does at most.
+    bend: f64,
+    halvings: u32,
+}
+
+impl Kind {
+    /// The kind that the caller's flags ask for.
+    pub(crate) fn of(ncq: c_int) -> Kind {
+        /// A piece of a curve that no one would draw may still bend by more than a radian then.
+        const OFTEN: u32 = 8;
+        let (form, few) = match (ncq & crate::abi::OUTPUT_MASK) >> 12 {
+            0 => (Form::Cubic, false),
+            1 => (Form::Cubic, true),
+            2 => (Form::Arc, false),
+            3 => (Form::Arc, true),
+            _ => (Form::Quadratic, false),
+        };
+        let (bend, halvings) = if few { (FRAC_PI_2, 1) } else { (1.0, OFTEN) };
+        Kind { form, bend, halvings }
+    }
+
+    /// A solved segment in this kind of pieces; none if it has no length. The last ends where the segment
+    /// does, to the bit.
+    pub(crate) fn pieces(self, segment: &Segment) -> Vec<Piece> {
+        if !(segment.length() > 0.0) {
+            return Vec::new();
+        }
+        if segment.is_line() {
+            return vec![Piece::Line(segment.end())];
+        }
+        match self.form {
+            Form::Cubic => self.cubics(segment),
+            Form::Arc => {
+                let accuracy = self.coarse_error(segment, &arc_error);
+                evenly(segment, accuracy, &arc_error).iter().map(arc).collect()
+            }
+            Form::Quadratic => {
+                let accuracy = self.coarse_error(segment, &quadratics_error);
+                let stretches = between_inflections(segment);
+                let even = stretches.iter().flat_map(|s| evenly(s, accuracy, &quadratics_error));
+                even.map(|piece| quadratic_or_line(&piece)).collect()
+            }
+        }
+    }
+
+    /// The fewest cubics that are at least twice as near as libspiro's.
+    fn cubics(self, segment: &Segment) -> Vec<Piece> {
+        let theirs =
+            |piece: &Segment| convert::fit_single(piece, Metric::Distance, Fit::ArcThird).error;
+        let accuracy = 0.5 * self.coarse_error(segment, &theirs);
+        let options = Options { cuts: Cuts::EqualErrors, ..Options::new(accuracy) };
+        let curve = Curve::new(vec![segment.clone()], false);
+        let elements = convert::convert(&curve, &options).path;
+        elements
+            .elements()
+            .iter()
+            .filter_map(|element| match *element {
+                PathEl::LineTo(end) => Some(Piece::Line(end)),
+                PathEl::QuadTo(p1, end) => Some(Piece::Quad(p1, end)),
+                PathEl::CurveTo(p1, p2, end) => Some(Piece::Cubic(p1, p2, end)),
+                PathEl::MoveTo(_) | PathEl::ClosePath => None,
+            })
+            .collect()
+    }
+
+    /// The largest error of the pieces that halving leads to.
+    fn coarse_error(self, segment: &Segment, error: &dyn Fn(&Segment) -> f64) -> f64 {
+        let length = segment.length();
+        if self.halvings == 0 || segment.largest_curvature(0.0, length) * length <= self.bend {
+            return error(segment);
+        }
+        let halved = Kind { halvings: self.halvings - 1, ..self };
+        let of = |from: f64, to: f64| halved.coarse_error(&segment.subsegment(from, to), error);
+        of(0.0, length / 2.0).max(of(length / 2.0, length))
+    }
+}
+
+/// As few pieces of the same length as have at most that error.
+fn evenly(segment: &Segment, accuracy: f64, error: &dyn Fn(&Segment) -> f64) -> Vec<Segment> {
+    /// More than libspiro's pieces by halving: reached only where rounding is the error.
+    const MOST: usize = 512;
+    let cut = |n: usize| -> Vec<Segment> {
+        let place = |i: usize| segment.length() * (i as f64 / n as f64);
+        (0..n).map(|i| segment.subsegment(place(i), place(i + 1))).collect()
+    };
+    let mut n = 1;
+    loop {
+        let pieces = cut(n);
+        if n >= MOST || pieces.iter().all(|piece| error(piece) <= accuracy) {
+            return pieces;
+        }
+        n += 1 + n / 8;
+    }
+}
+
+/// Cut where it bends to neither side: a quadratic bends to one.
+fn between_inflections(segment: &Segment) -> Vec<Segment> {
+    let mut places = vec![0.0];
+    places.extend(segment.inflections());
+    places.push(segment.length());
+    places.dedup();
+    places.windows(2).map(|pair| segment.subsegment(pair[0], pair[1])).collect()
+}
+
+/// Places along a piece, ends left out, at which its distance is measured.
+fn samples(piece: &Segment) -> impl Iterator<Item = Point> + '_ {
+    /// An arc's deviation has two humps, a quadratic's one or two.
+    const SAMPLES: usize = 16;
+    (1..SAMPLES).map(|i| piece.point(piece.length() * (i as f64 / SAMPLES as f64)))
+}
+
+/// The arc through the ends and the middle; a line where they are on one.
+fn arc(piece: &Segment) -> Piece {
+    let middle = piece.point(piece.length() / 2.0);
+    match circle(piece.start(), middle, piece.end()) {
+        Some(_) => Piece::Quad(middle, piece.end()),
+        None => Piece::Line(piece.end()),
+    }
+}
+
+fn arc_error(piece: &Segment) -> f64 {
+    let (start, end) = (piece.start(), piece.end());
+    let Some((centre, radius)) = circle(start, piece.point(piece.length() / 2.0), end) else {
+        return samples(piece).map(|p| distance_to_line(p, start, end)).fold(0.0, f64::max);
+    };
+    samples(piece).map(|p| ((p - centre).hypot() - radius).abs()).fold(0.0, f64::max)
+}
+
+/// Centre and radius of the circle through three points; `None` if it can't be told from a line.
+fn circle(start: Point, middle: Point, end: Point) -> Option<(Point, f64)> {
+    /// The height of an arc over its chord below which rounding decides what circle it is of.
+    const FLAT: f64 = 1e-9;
+    let (a, b) = (middle - start, end - start);
+    let cross = a.cross(b);
+    if cross.abs() <= FLAT * a.hypot() * b.hypot() {
+        return None;
+    }
+    let toward =
+        (a.hypot2() * Vec2::new(b.y, -b.x) - b.hypot2() * Vec2::new(a.y, -a.x)) / (2.0 * cross);
+    Some((start + toward, toward.hypot()))
+}
+
+fn distance_to_line(p: Point, start: Point, end: Point) -> f64 {
+    let along = end - start;
+    let across = (p - start).cross(along).abs() / along.hypot();
+    if across.is_finite() { across } else { (p - start).hypot() }
+}
+
+/// The quadratic with the piece's ends and end tangents, if there is one.
+fn quadratic(piece: &Segment) -> Option<QuadBez> {
+    let (start, end) = (piece.start(), piece.end());
+    let from = Vec2::from_angle(piece.direction(0.0));
+    let to = Vec2::from_angle(piece.direction(piece.length()));
+    let (chord, cross) = (end - start, from.cross(to));
+    let (a, b) = (chord.cross(to) / cross, from.cross(chord) / cross);
+    (a > 0.0 && b > 0.0 && a.is_finite() && b.is_finite())
+        .then(|| QuadBez::new(start, start + from * a, end))
+}
+
+fn quadratic_or_line(piece: &Segment) -> Piece {
+    match quadratic(piece) {
+        Some(quadratic) => Piece::Quad(quadratic.p1, quadratic.p2),
+        None => Piece::Line(piece.end()),
+    }
+}
+
+/// The error of one quadratic for each side that the piece bends to.
+fn quadratics_error(piece: &Segment) -> f64 {
+    /// Distances are found to this part of the length.
+    const NEAR: f64 = 1e-9;
+    let of_one = |piece: &Segment| {
+        let accuracy = NEAR * piece.length();
+        let distance = |p: Point| match quadratic(piece) {
+            Some(quadratic) => quadratic.nearest(p, accuracy).distance_sq.sqrt(),
+            None => distance_to_line(p, piece.start(), piece.end()),
+        };
+        samples(piece).map(distance).fold(0.0, f64::max)
+    };
+    between_inflections(piece).iter().map(of_one).fold(0.0, f64::max)
+}
