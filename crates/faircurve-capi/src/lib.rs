@@ -657,8 +657,7 @@ pub unsafe extern "C" fn fc_relaxation_at(
     guarded(|| {
         // SAFETY: by contract.
         let (solution, relaxation) = unsafe { (given(solution)?, place(relaxation)?) };
-        let relaxed =
-            solution.0.relaxed(contour)?.get(index).ok_or(fc_status::FC_OUT_OF_RANGE)?;
+        let relaxed = solution.0.relaxed(contour)?.get(index).ok_or(fc_status::FC_OUT_OF_RANGE)?;
         let (is_segment, index) = match relaxed.place {
             Place::Knot(index) => (0, index),
             Place::Segment(index) => (1, index),

@@ -1,8 +1,9 @@
 //! A solved segment as lines, cubics, quadratics or arcs, as the caller asks.
 //!
-//! How near they are: libspiro halves a segment until no piece bends by more than a radian, and draws
-//! each half as one piece. How far *that* would be from the curve is worked out here for every segment
-//! ([`coarse_error`]), and the fewest pieces are taken that come nearer.
+//! How near they are: libspiro halves a segment until no piece bends by more than a radian, and draws each half
+//! in the simplest way (its cubics are those of thesis section 9.3). How far *that* is from the curve is worked out
+//! here for every segment ([`Kind::coarse_error`]), and the fewest pieces are taken that come nearer. So accuracy needs no
+//! units, and curves that libspiro's callers are used to never get worse.
 
 use std::f64::consts::FRAC_PI_2;
 use std::ffi::c_int;
@@ -30,20 +31,21 @@ enum Form {
     Quadratic,
 }
 
+/// How much nearer cubics and quadratics are at least. Smaller, and there are more of them: at a half, a tenth fewer cubics
+/// than libspiro's in real fonts. Arcs are libspiro's own, as few of them as are as near.
+const NEARER: f64 = 0.5;
+
 /// What kind of pieces is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Kind {
     form: Form,
-    /// The bend in radians above which libspiro halves a piece, and how often it does at most.
+    /// The bend in radians above which libspiro halves a piece.
     bend: f64,
-    halvings: u32,
 }
 
 impl Kind {
     /// The kind that the caller's flags ask for.
     pub(crate) fn of(ncq: c_int) -> Kind {
-        /// A piece of a curve that no one would draw may still bend by more than a radian then.
-        const OFTEN: u32 = 8;
         let (form, few) = match (ncq & crate::abi::OUTPUT_MASK) >> 12 {
             0 => (Form::Cubic, false),
             1 => (Form::Cubic, true),
@@ -51,8 +53,7 @@ impl Kind {
             3 => (Form::Arc, true),
             _ => (Form::Quadratic, false),
         };
-        let (bend, halvings) = if few { (FRAC_PI_2, 1) } else { (1.0, OFTEN) };
-        Kind { form, bend, halvings }
+        Kind { form, bend: if few { FRAC_PI_2 } else { 1.0 } }
     }
 
     /// A solved segment in this kind of pieces; none if it has no length. The last ends where the segment
@@ -68,22 +69,23 @@ impl Kind {
             Form::Cubic => self.cubics(segment),
             Form::Arc => {
                 let accuracy = self.coarse_error(segment, &arc_error);
-                evenly(segment, accuracy, &arc_error).iter().map(arc).collect()
+                few_pieces(segment, accuracy, &arc_error).iter().map(arc).collect()
             }
             Form::Quadratic => {
-                let accuracy = self.coarse_error(segment, &quadratics_error);
+                let accuracy = NEARER * self.coarse_error(segment, &quadratics_error);
                 let stretches = between_inflections(segment);
-                let even = stretches.iter().flat_map(|s| evenly(s, accuracy, &quadratics_error));
-                even.map(|piece| quadratic_or_line(&piece)).collect()
+                let pieces =
+                    stretches.iter().flat_map(|s| few_pieces(s, accuracy, &quadratics_error));
+                pieces.map(|piece| quadratic_or_line(&piece)).collect()
             }
         }
     }
 
-    /// The fewest cubics that are at least twice as near as libspiro's.
+    /// The fewest cubics that are near enough.
     fn cubics(self, segment: &Segment) -> Vec<Piece> {
         let theirs =
             |piece: &Segment| convert::fit_single(piece, Metric::Distance, Fit::ArcThird).error;
-        let accuracy = 0.5 * self.coarse_error(segment, &theirs);
+        let accuracy = NEARER * self.coarse_error(segment, &theirs);
         let options = Options { cuts: Cuts::EqualErrors, ..Options::new(accuracy) };
         let curve = Curve::new(vec![segment.clone()], false);
         let elements = convert::convert(&curve, &options).path;
@@ -101,31 +103,65 @@ impl Kind {
 
     /// The largest error of the pieces that halving leads to.
     fn coarse_error(self, segment: &Segment, error: &dyn Fn(&Segment) -> f64) -> f64 {
-        let length = segment.length();
-        if self.halvings == 0 || segment.largest_curvature(0.0, length) * length <= self.bend {
-            return error(segment);
+        /// A piece of a curve that nobody would draw may still bend by more than a radian then.
+        const MOST_HALVINGS: u32 = 8;
+        self.error_of_halves(segment, MOST_HALVINGS, error)
+    }
+
+    fn error_of_halves(
+        self,
+        piece: &Segment,
+        halvings: u32,
+        error: &dyn Fn(&Segment) -> f64,
+    ) -> f64 {
+        let length = piece.length();
+        if halvings == 0 || piece.largest_curvature(0.0, length) * length <= self.bend {
+            return error(piece);
         }
-        let halved = Kind { halvings: self.halvings - 1, ..self };
-        let of = |from: f64, to: f64| halved.coarse_error(&segment.subsegment(from, to), error);
+        let of = |from: f64, to: f64| {
+            self.error_of_halves(&piece.subsegment(from, to), halvings - 1, error)
+        };
         of(0.0, length / 2.0).max(of(length / 2.0, length))
     }
 }
 
-/// As few pieces of the same length as have at most that error.
-fn evenly(segment: &Segment, accuracy: f64, error: &dyn Fn(&Segment) -> f64) -> Vec<Segment> {
-    /// More than libspiro's pieces by halving: reached only where rounding is the error.
-    const MOST: usize = 512;
-    let cut = |n: usize| -> Vec<Segment> {
-        let place = |i: usize| segment.length() * (i as f64 / n as f64);
-        (0..n).map(|i| segment.subsegment(place(i), place(i + 1))).collect()
-    };
-    let mut n = 1;
+/// As few pieces as have at most that error: of the same length where that does it, else each as long as it
+/// can be.
+fn few_pieces(segment: &Segment, accuracy: f64, error: &dyn Fn(&Segment) -> f64) -> Vec<Segment> {
+    let greedy = long_pieces(segment, accuracy, error);
+    let part = segment.length() / greedy.len() as f64;
+    let place = |i: usize| if i == greedy.len() { segment.length() } else { part * i as f64 };
+    let even: Vec<Segment> =
+        (0..greedy.len()).map(|i| segment.subsegment(place(i), place(i + 1))).collect();
+    if even.iter().all(|piece| error(piece) <= accuracy) { even } else { greedy }
+}
+
+fn long_pieces(segment: &Segment, accuracy: f64, error: &dyn Fn(&Segment) -> f64) -> Vec<Segment> {
+    /// As a part of the whole: reached only where rounding is the error.
+    const SHORTEST: f64 = 1.0 / 512.0;
+    /// Ends are found to this part of a piece.
+    const STEPS: i32 = 12;
+    let length = segment.length();
+    let shortest = SHORTEST * length;
+    let mut pieces = Vec::new();
+    let mut from = 0.0;
     loop {
-        let pieces = cut(n);
-        if n >= MOST || pieces.iter().all(|piece| error(piece) <= accuracy) {
+        let rest = segment.subsegment(from, length);
+        if length - from <= shortest || error(&rest) <= accuracy {
+            pieces.push(rest);
             return pieces;
         }
-        n += 1 + n / 8;
+        let (mut near, mut far) = (from + shortest, length);
+        for _ in 0..STEPS {
+            let middle = (near + far) / 2.0;
+            if error(&segment.subsegment(from, middle)) <= accuracy {
+                near = middle;
+            } else {
+                far = middle;
+            }
+        }
+        pieces.push(segment.subsegment(from, near));
+        from = near;
     }
 }
 
