@@ -177,7 +177,7 @@ fn between_inflections(segment: &Segment) -> Vec<Segment> {
 /// Places along a piece, ends left out, at which its distance is measured.
 fn samples(piece: &Segment) -> impl Iterator<Item = Point> + '_ {
     /// An arc's deviation has two humps, a quadratic's one or two.
-    const SAMPLES: usize = 16;
+    const SAMPLES: usize = 32;
     (1..SAMPLES).map(|i| piece.point(piece.length() * (i as f64 / SAMPLES as f64)))
 }
 
