@@ -9,7 +9,7 @@
 //! other: where another libspiro is loaded too, such calls could end there.
 #![expect(unsafe_code, reason = "this is the boundary to C")]
 
-mod abi;
+pub mod abi;
 mod drawing;
 mod pen;
 mod pieces;

@@ -52,10 +52,18 @@ pub fn has(program: &str) -> bool {
     found
 }
 
+/// Whether there is what C programs are made with.
+pub fn has_compiler() -> bool {
+    ["cc", "pkg-config", "nm", "objdump"].into_iter().all(has)
+}
+
 /// What pkg-config says about an installed library.
 pub fn pkg_config(name: &str, arguments: &[&str]) -> Vec<String> {
     let mut command = Command::new("pkg-config");
-    command.env("PKG_CONFIG_PATH", prefix().join("lib/pkgconfig")).args(arguments).arg(name);
+    command
+        .env("PKG_CONFIG_PATH", prefix().join("lib/pkgconfig"))
+        .args(arguments)
+        .args(name.split(' '));
     output(&mut command).split_whitespace().map(str::to_owned).collect()
 }
 
@@ -66,10 +74,11 @@ pub enum Linked {
     Static,
 }
 
-/// Compiles a C program against an installed library, without warnings.
+/// Compiles a C program against an installed library, or several, without warnings.
 pub fn compile(source: &Path, library: &str, linked: Linked) -> PathBuf {
     let name = format!(
-        "{library}-{}-{}",
+        "{}-{}-{}",
+        library.replace(' ', "-"),
         source.file_stem().and_then(OsStr::to_str).unwrap(),
         if linked == Linked::Static { "static" } else { "shared" }
     );
