@@ -4,7 +4,7 @@
 //! each promises is in the headers (`include/`) and the manual page (`man/libspiro.3`); where it
 //! differs from libspiro, in `docs/c-api.md`.
 //!
-//! This file and [`pen`] alone touch the caller's memory: they make slices of pointers and hand results
+//! This file and `pen.rs` alone touch the caller's memory: they make slices of pointers and hand results
 //! back. No state outlives a call, and a panic ends in the answer "failed". The functions that C sees don't call each
 //! other: where another libspiro is loaded too, such calls could end there.
 #![expect(unsafe_code, reason = "this is the boundary to C")]

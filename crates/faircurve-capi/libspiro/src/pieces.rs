@@ -125,9 +125,14 @@ impl Kind {
     }
 }
 
-/// As few pieces as have at most that error: of the same length where that does it, else each as long as it
+/// As few pieces as have at most that error, or what rounding makes of none: of the same length where that does it, else each as long as it
 /// can be.
 fn few_pieces(segment: &Segment, accuracy: f64, error: &dyn Fn(&Segment) -> f64) -> Vec<Segment> {
+    /// As a part of the length: arcs of a circle are exact, but for this.
+    const ROUNDING: f64 = 1e-9;
+    /// Halves have the error that is asked for: rounding mustn't decide whether they do.
+    const SLACK: f64 = 1.0 + 1e-6;
+    let accuracy = (SLACK * accuracy).max(ROUNDING * segment.length());
     let greedy = long_pieces(segment, accuracy, error);
     let part = segment.length() / greedy.len() as f64;
     let place = |i: usize| if i == greedy.len() { segment.length() } else { part * i as f64 };
@@ -249,4 +254,77 @@ fn quadratics_error(piece: &Segment) -> f64 {
         samples(piece).map(distance).fold(0.0, f64::max)
     };
     between_inflections(piece).iter().map(of_one).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use faircurve::PolynomialSpiral;
+
+    fn spiral(k: [f64; 4]) -> Segment {
+        Segment::spiral(Point::new(10.0, 20.0), Point::new(400.0, -30.0), PolynomialSpiral::new(k))
+    }
+
+    /// From gentle to a full turn and a half, with inflections, and with curvature that the bound overrates.
+    fn spirals() -> Vec<Segment> {
+        let mut all = Vec::new();
+        for k0 in [0.0, 0.01, 0.4, 1.5, -3.0, 5.0] {
+            for rest in [[0.0; 3], [2.0, 0.0, 0.0], [-6.0, 8.0, 0.0], [3.0, -20.0, 60.0]] {
+                all.push(spiral([k0, rest[0], rest[1], rest[2]]));
+            }
+        }
+        all.retain(|segment| segment.kappa() != Some([0.0; 4]));
+        all
+    }
+
+    fn end(piece: Piece) -> Point {
+        match piece {
+            Piece::Line(end) | Piece::Quad(_, end) | Piece::Cubic(_, _, end) => end,
+        }
+    }
+
+    fn halves(kind: Kind, piece: &Segment) -> usize {
+        let length = piece.length();
+        if piece.largest_curvature(0.0, length) * length <= kind.bend {
+            return 1;
+        }
+        let middle = length / 2.0;
+        halves(kind, &piece.subsegment(0.0, middle))
+            + halves(kind, &piece.subsegment(middle, length))
+    }
+
+    #[test]
+    fn every_kind_ends_on_the_segments_end_with_no_more_pieces_than_halving() {
+        for segment in spirals() {
+            for (ncq, most) in [(0, 1), (0x1000, 1), (0x2000, 1), (0x3000, 1), (0x4000, 2)] {
+                let kind = Kind::of(ncq);
+                let pieces = kind.pieces(&segment);
+                assert_eq!(end(*pieces.last().unwrap()), segment.end());
+                // More quadratics where the curve changes sides.
+                let sides = if most > 1 { segment.inflections().len() } else { 0 };
+                let limit = most * (halves(kind, &segment) + sides);
+                assert!(pieces.len() <= limit, "{:?} {ncq:x}: {}", segment.kappa(), pieces.len());
+            }
+        }
+    }
+
+    #[test]
+    fn lines_are_lines_in_every_kind_and_nothing_is_nothing() {
+        let (a, b) = (Point::new(1.0, 2.0), Point::new(5.0, 7.0));
+        for ncq in 0..8 {
+            let kind = Kind::of(ncq << 12);
+            assert_eq!(kind.pieces(&Segment::line(a, b)), [Piece::Line(b)]);
+            assert_eq!(kind.pieces(&Segment::line(a, a)), []);
+        }
+    }
+
+    /// A circle through three points is found, and not where there is none.
+    #[test]
+    fn circles_are_found() {
+        let at = |angle: f64| Point::new(3.0, 4.0) + 5.0 * Vec2::from_angle(angle);
+        let (centre, radius) = circle(at(0.1), at(1.0), at(2.5)).unwrap();
+        assert!((centre - Point::new(3.0, 4.0)).hypot() < 1e-12 && (radius - 5.0).abs() < 1e-12);
+        assert_eq!(circle(Point::ZERO, Point::new(1.0, 1.0), Point::new(3.0, 3.0)), None);
+        assert_eq!(circle(Point::ZERO, Point::ZERO, Point::ZERO), None);
+    }
 }

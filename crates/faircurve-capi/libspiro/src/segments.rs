@@ -163,3 +163,98 @@ pub(crate) fn directions(entry: &SpiroSeg) -> [f64; 2] {
     let angles = PolynomialSpiral::new(entry.ks).chord_angles();
     [angles.start_direction(entry.seg_th), angles.end_direction(entry.seg_th)].map(wrap_angle)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::{self, Call};
+    use crate::points::{Form, tests::list};
+
+    /// Open and closed, with anchors, corners, one-way points, lines, and points in one place.
+    const LISTS: [&str; 6] = [
+        "0,0,{ 100,100,o 200,0,c 300,60,}",
+        "500,250,o 250,500,o 0,250,[ 250,0,v 0,0,z",
+        "0,0,{ 100,100,a 200,100,h 200,0,c 300,50,}",
+        "100,100,a 200,100,h 200,0,o 0,0,v 0,0,z",
+        "0,0,v 100,0,[ 200,100,o 100,200,v 100,200,v 0,0,z",
+        "0,0,] 400,0,[ 500,150,o 400,300,] 0,300,[ -100,150,o 0,0,z",
+    ];
+
+    fn is_near(a: &Call, b: &Call) -> bool {
+        use crate::pieces::Piece::{Cubic, Line, Quad};
+        let near = |a: Point, b: Point| (a - b).hypot() < 1e-7;
+        match (*a, *b) {
+            (Call::Move(p, open), Call::Move(q, also)) => near(p, q) && open == also,
+            (Call::Knot(i), Call::Knot(j)) => i == j,
+            (Call::Piece(Line(p)), Call::Piece(Line(q))) => near(p, q),
+            (Call::Piece(Quad(p1, p)), Call::Piece(Quad(q1, q))) => near(p1, q1) && near(p, q),
+            (Call::Piece(Cubic(p1, p2, p)), Call::Piece(Cubic(q1, q2, q))) => {
+                near(p1, q1) && near(p2, q2) && near(p, q)
+            }
+            _ => false,
+        }
+    }
+
+    #[test]
+    fn an_array_draws_what_its_contour_draws() {
+        for text in LISTS {
+            let list = list(text);
+            let points = Points::read(&list, Form::Tagged).unwrap();
+            let solution = drawing::solved(&points.contour).unwrap();
+            for ncq in [0, 0x3000, 0x4000, RETRO_VER1] {
+                let direct = drawing::draw(&points.contour, ncq).unwrap();
+                let scale = Scale::of(&points, ncq);
+                assert_eq!(scale == Scale::ONE, ncq == RETRO_VER1);
+                let array = array(&list, &points, &solution, scale);
+                assert_eq!(array.len(), list.len());
+                for source in [None, Some(&list[..])] {
+                    let placed = placed(&array, source, scale).unwrap();
+                    let calls = drawing::calls(placed.start, &placed.segments, placed.open, ncq);
+                    assert_eq!(calls.len(), direct.len(), "{text} {ncq:x} {calls:?}\n{direct:?}");
+                    let near = calls.iter().zip(&direct).all(|(a, b)| is_near(a, b));
+                    assert!(near, "{text} {ncq:x}\n{calls:?}\n{direct:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_closed_array_may_come_without_its_mark() {
+        let list = list(LISTS[1]);
+        let points = Points::read(&list, Form::Tagged).unwrap();
+        let solution = drawing::solved(&points.contour).unwrap();
+        let array = array(&list, &points, &solution, Scale::ONE);
+        let (marked, bare) =
+            (placed(&array, None, Scale::ONE), placed(&array[..4], None, Scale::ONE));
+        assert_eq!(marked.unwrap().segments, bare.unwrap().segments);
+    }
+
+    #[test]
+    fn directions_are_those_of_the_curve() {
+        for text in LISTS {
+            let list = list(text);
+            let points = Points::read(&list, Form::Tagged).unwrap();
+            let solution = drawing::solved(&points.contour).unwrap();
+            let array = array(&list, &points, &solution, Scale::of(&points, 0));
+            for (i, &place) in points.places.iter().enumerate() {
+                let knot = &solution.knots[i];
+                let place = handle_of(&list, place).unwrap_or(place);
+                let Some(out) = knot.direction_out else { continue };
+                if array[place].seg_ch > 0.0 {
+                    let error = wrap_angle(directions(&array[place])[0] - out);
+                    assert!(error.abs() < 1e-9, "{text}: {error}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn arrays_that_mean_nothing_draw_nothing() {
+        let entry = SpiroSeg { ty: b'o' as _, ..SpiroSeg::default() };
+        assert!(placed(&[], None, Scale::ONE).is_none());
+        let wild = SpiroSeg { ks: [f64::NAN; 4], x: 1.0, ..entry };
+        assert!(placed(&[entry, wild, entry], None, Scale::ONE).is_none());
+        let far = SpiroSeg { x: f64::MAX, ..entry };
+        assert!(placed(&[entry, far, entry], None, Scale { scale: 10.0, ..Scale::ONE }).is_none());
+    }
+}
