@@ -35,7 +35,7 @@
 #define FC_JOIN_TERMINAL_TO_CURVE 6
 
 // What became of a call. fc_status_message says it in words.
-typedef enum fc_status {
+typedef enum {
   // Done.
   FC_OK,
   // An argument is NULL that must not be.
@@ -59,7 +59,7 @@ typedef enum fc_status {
 } fc_status;
 
 // The kinds of pieces that a contour is made of.
-typedef enum fc_element_kind {
+typedef enum {
   // The contour starts at (x, y).
   FC_MOVE_TO,
   // A straight line to (x, y).
@@ -79,7 +79,7 @@ typedef struct fc_document fc_document;
 typedef struct fc_solution fc_solution;
 
 // How to solve, and what Béziers to make. Filled by fc_options_default, then changed where need be.
-typedef struct fc_options {
+typedef struct {
   // The size of this struct in the caller's eyes; later versions may have more members.
   size_t size;
   // The largest distance of the Béziers from the curve, in the drawing's units; 0, the default, is a
@@ -100,7 +100,7 @@ typedef struct fc_options {
 } fc_options;
 
 // A knot: a point that the curve passes through.
-typedef struct fc_knot {
+typedef struct {
   // Where it is, y up.
   double x;
   // Where it is, y up.
@@ -110,7 +110,7 @@ typedef struct fc_knot {
 } fc_knot;
 
 // A point of a curve.
-typedef struct fc_point {
+typedef struct {
   // Where it is.
   double x;
   // Where it is.
@@ -122,9 +122,9 @@ typedef struct fc_point {
 } fc_point;
 
 // A piece of a contour. Members that its kind doesn't use are 0.
-typedef struct fc_element {
+typedef struct {
   // What it is.
-  enum fc_element_kind kind;
+  fc_element_kind kind;
   // The first control point.
   double x1;
   // The first control point.
@@ -140,10 +140,10 @@ typedef struct fc_element {
 } fc_element;
 
 // Takes one piece after the other. The data is what was passed with the function.
-typedef void (*fc_element_function)(const struct fc_element *element, void *data);
+typedef void (*fc_element_function)(const fc_element *element, void *data);
 
 // Something that could not be met. The strings live as long as the solution.
-typedef struct fc_relaxation {
+typedef struct {
   // Not 0: index is that of a segment; 0: of a knot. Both count from 0.
   int is_segment;
   // Where it is.
@@ -170,73 +170,83 @@ const char *fc_status_message(int status);
 void fc_string_free(char *string);
 
 // Fills options with the defaults. The size is sizeof(fc_options).
-enum fc_status fc_options_default(struct fc_options *options, size_t size);
+fc_status fc_options_default(fc_options *options, size_t size);
 
 // A document without contours, to be solved with the spline "spiro". Never NULL.
-struct fc_document *fc_document_new(void);
+fc_document *fc_document_new(void);
 
 // Reads a document: JSON of so many bytes, which need not end in a NUL. On FC_OK *document is new; else it
 // is NULL, and *message, unless message is NULL, a string that says what is wrong, where, and what to do.
-enum fc_status fc_document_read_json(const char *text, size_t length, struct fc_document **document, char **message);
+fc_status fc_document_read_json(const char *text, size_t length, fc_document **document, char **message);
 
 // Sets the spline of contours that don't name their own: a name such as "euler", of those that `faircurve
 // list` shows.
-enum fc_status fc_document_set_spline(struct fc_document *document, const char *name, char **message);
+fc_status fc_document_set_spline(fc_document *document, const char *name, char **message);
 
 // Appends a contour to the last glyph, or to a new one without a name.
-enum fc_status fc_document_add_contour(struct fc_document *document, const struct fc_knot *knots, size_t count, int is_closed);
+fc_status fc_document_add_contour(fc_document *document, const fc_knot *knots, size_t count, int is_closed);
 
 // Writes a document as JSON: *json is a new string. Numbers that aren't finite are FC_BAD_DOCUMENT, with a
 // *message as in fc_document_read_json.
-enum fc_status fc_document_write_json(const struct fc_document *document, char **json, char **message);
+fc_status fc_document_write_json(const fc_document *document, char **json, char **message);
 
 // Frees a document. NULL is nothing.
-void fc_document_free(struct fc_document *document);
+void fc_document_free(fc_document *document);
 
 // Solves every contour. NULL options are the defaults. On FC_OK *solution is new; else it is NULL, and *message,
 // unless message is NULL, a string that says what is wrong, where, and what to do. What can't be solved as asked is
 // relaxed, not an error: see fc_relaxation_count.
-enum fc_status fc_solve(const struct fc_document *document, const struct fc_options *options, struct fc_solution **solution, char **message);
+fc_status fc_solve(const fc_document *document,
+                   const fc_options *options,
+                   fc_solution **solution,
+                   char **message);
 
 // Writes a solution as JSON: *json is a new string. With samples above 0 every segment has that many equal
 // parts of arc length, and points, directions and curvatures at their ends.
-enum fc_status fc_solution_write_json(const struct fc_solution *solution, size_t samples, char **json);
+fc_status fc_solution_write_json(const fc_solution *solution, size_t samples, char **json);
 
 // Frees a solution. NULL is nothing.
-void fc_solution_free(struct fc_solution *solution);
+void fc_solution_free(fc_solution *solution);
 
 // How many contours a solution has: those of all glyphs, in the document's order, counted from 0.
-size_t fc_contour_count(const struct fc_solution *solution);
+size_t fc_contour_count(const fc_solution *solution);
 
 // The name of the glyph that a contour belongs to, empty if it has none. NULL if there is no such contour.
-const char *fc_glyph_name(const struct fc_solution *solution, size_t contour);
+const char *fc_glyph_name(const fc_solution *solution, size_t contour);
 
 // The name of its layer, empty if it has none. NULL if there is no such contour.
-const char *fc_layer_name(const struct fc_solution *solution, size_t contour);
+const char *fc_layer_name(const fc_solution *solution, size_t contour);
 
 // The arc length of a contour, in the drawing's units.
-enum fc_status fc_length(const struct fc_solution *solution, size_t contour, double *length);
+fc_status fc_length(const fc_solution *solution, size_t contour, double *length);
 
 // The arc length from the start of a contour to a knot. A closed contour of n knots has an n-th: its
 // start, reached again.
-enum fc_status fc_knot_position(const struct fc_solution *solution, size_t contour, size_t knot, double *s);
+fc_status fc_knot_position(const fc_solution *solution, size_t contour, size_t knot, double *s);
 
 // Point, direction and curvature at an arc length from the start of a contour, clamped to its ends. Where
 // two segments meet, those of the later one.
-enum fc_status fc_at(const struct fc_solution *solution, size_t contour, double s, struct fc_point *point);
+fc_status fc_at(const fc_solution *solution, size_t contour, double s, fc_point *point);
 
 // Hands the pieces of a contour to a function, in order, with that data.
-enum fc_status fc_beziers(const struct fc_solution *solution, size_t contour, fc_element_function function, void *data);
+fc_status fc_beziers(const fc_solution *solution, size_t contour, fc_element_function function, void *data);
 
 // Copies the pieces of a contour into an array that has room for so many. *count is how many pieces there are, on
 // FC_TOO_SMALL, too; then nothing is copied. With a capacity of 0 the array may be NULL.
-enum fc_status fc_beziers_into(const struct fc_solution *solution, size_t contour, struct fc_element *elements, size_t capacity, size_t *count);
+fc_status fc_beziers_into(const fc_solution *solution,
+                          size_t contour,
+                          fc_element *elements,
+                          size_t capacity,
+                          size_t *count);
 
 // In how many places a contour could not be solved as asked; 0 if there is no such contour.
-size_t fc_relaxation_count(const struct fc_solution *solution, size_t contour);
+size_t fc_relaxation_count(const fc_solution *solution, size_t contour);
 
 // One of these: where, what was asked, what holds instead, and why.
-enum fc_status fc_relaxation_at(const struct fc_solution *solution, size_t contour, size_t index, struct fc_relaxation *relaxation);
+fc_status fc_relaxation_at(const fc_solution *solution,
+                           size_t contour,
+                           size_t index,
+                           fc_relaxation *relaxation);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -180,6 +180,13 @@ pub struct fc_relaxation {
     pub reason: *const c_char,
 }
 
+/// Handles may be shared by threads: what the header promises, checked by the compiler.
+const _: () = {
+    const fn is_shared<T: Send + Sync>() {}
+    is_shared::<fc_document>();
+    is_shared::<fc_solution>();
+};
+
 /// What `work` does as a status; `FC_BUG` if it panics.
 fn guarded(work: impl FnOnce() -> Result<(), fc_status>) -> fc_status {
     match catch_unwind(AssertUnwindSafe(work)) {
