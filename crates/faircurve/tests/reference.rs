@@ -145,7 +145,7 @@ fn euler_splines() {
                     [k0, k1, 0.0, 0.0]
                 })
                 .collect();
-            assert_parameters(name, &solution, &expected, 4.0 * uncertainty);
+            assert_parameters(name, &solution, &expected, uncertainty);
         }
     }
 }

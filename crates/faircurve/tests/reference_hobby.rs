@@ -81,13 +81,13 @@ fn splines_of_the_reference_file() {
         for (knot, tangent) in solution.knots.iter().zip(list(&set["tangents"])) {
             for ours in [knot.direction_in, knot.direction_out].into_iter().flatten() {
                 let error = wrap_angle(ours - number(tangent)).abs();
-                assert!(error <= 4.0 * uncertainty, "{name}: {ours}, off by {error:e}");
+                assert!(error <= uncertainty, "{name}: {ours}, off by {error:e}");
             }
         }
         let expected: Vec<[Point; 2]> =
             list(&set["controls"]).iter().map(|c| [point(&c[0]), point(&c[1])]).collect();
         let off = off(&contour, &solution, &expected, 1.0);
-        assert!(off <= 4.0 * uncertainty, "{name}: {off:e}");
+        assert!(off <= uncertainty, "{name}: {off:e}");
         for (side, at) in [("kappa_start", 0.0), ("kappa_end", 1.0)] {
             for (segment, kappa) in solution.curve.segments().iter().zip(list(&set[side])) {
                 let error = (segment.curvature(at * segment.length()) - number(kappa)).abs();
@@ -283,11 +283,13 @@ fn run_metapost(name: &str, numbers: &str, paths: &[String]) -> Option<Vec<Vec<[
         .current_dir(&folder)
         .env("max_print_line", "1000")
         .output();
-    let Ok(output) = output else {
+    let text = output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned());
+    // A bare `mpost` comes with other packages; its macros don't.
+    let Some(text) = text.ok().filter(|text| !text.contains("can't find the 'plain' preload file"))
+    else {
         println!("skipped: `mpost` can't be run here (Debian's texlive-metapost has it)");
         return None;
     };
-    let text = String::from_utf8_lossy(&output.stdout);
     assert!(!text.contains("\n! "), "{text}");
     let mut found = vec![Vec::new()];
     for line in text.lines() {

@@ -41,7 +41,7 @@ fn segments_up_to_three_radians() {
         ] {
             let fit = fit_si_mec(angles).unwrap();
             let [ours_start, ours_end] = fit.curvatures();
-            let bound = 2.0 * uncertainty * (1.0 + start.abs().max(end.abs()));
+            let bound = uncertainty * (1.0 + start.abs().max(end.abs()));
             assert!((ours_start - start).abs() <= bound, "{angles:?}: {ours_start} {start}");
             assert!((ours_end - end).abs() <= bound, "{angles:?}: {ours_end} {end}");
             assert!((fit.length - length).abs() <= uncertainty * length, "{angles:?}: {fit:?}");

@@ -2,6 +2,14 @@
 
 use std::fmt;
 
+use winnow::ascii::{float, multispace0};
+use winnow::combinator::{
+    Infix, Prefix, cut_err, delimited, dispatch, expression, fail, peek, preceded,
+};
+use winnow::error::ContextError;
+use winnow::token::{any, take_while};
+use winnow::{ModalResult, Parser};
+
 /// Curvature as a function of arc length `s`, read from text.
 ///
 /// Numbers, `s`, `pi`, `e`, `+ - * / ^`, parentheses and the functions of [`FUNCTIONS`]. `^` binds
@@ -198,169 +206,137 @@ impl std::str::FromStr for Formula {
     type Err = FormulaError;
 
     fn from_str(text: &str) -> Result<Self, FormulaError> {
-        /// Nobody writes longer ones.
-        const LONGEST: usize = 1000;
-        let characters: Vec<char> = text.chars().collect();
-        let mut reader = Reader { text: &characters, at: 0, depth: 0 };
-        if characters.len() > LONGEST {
-            return Err(reader.error(format!("it is longer than {LONGEST} characters")));
+        /// Nobody writes longer ones, and nothing that is nested in so few leaves the stack.
+        const LONGEST: usize = 500;
+        if let Some((at, _)) = text.char_indices().nth(LONGEST) {
+            return Err(FormulaError::new(text, at, |_| {
+                format!("it is longer than {LONGEST} characters")
+            }));
         }
-        let expression = reader.sum()?;
-        match reader.peek() {
-            None => Ok(Formula { expression }),
-            Some(')') => Err(reader.error(format!("`)` at {} was never opened", reader.place()))),
-            Some(_) => Err(reader.unexpected("an operator")),
+        match sum.parse(text) {
+            Ok(expression) => Ok(Formula { expression }),
+            Err(error) => Err(FormulaError::at(text, error.offset(), error.inner())),
         }
     }
 }
 
-/// A recursive descent through sums, products, signs, powers and atoms.
-struct Reader<'a> {
-    text: &'a [char],
-    at: usize,
-    depth: usize,
-}
-
-impl Reader<'_> {
-    fn peek(&mut self) -> Option<char> {
-        while self.text.get(self.at).is_some_and(|c| c.is_whitespace()) {
-            self.at += 1;
-        }
-        self.text.get(self.at).copied()
+impl FormulaError {
+    fn new(text: &str, offset: usize, what: impl FnOnce(&str) -> String) -> Self {
+        let at = text[..offset].chars().count() + 1;
+        FormulaError { at, what: what(&format!("at character {at}")) }
     }
 
-    fn place(&self) -> String {
-        format!("character {}", self.at + 1)
-    }
-
-    fn error(&self, what: String) -> FormulaError {
-        FormulaError { at: self.at + 1, what }
-    }
-
-    fn unexpected(&mut self, wanted: &str) -> FormulaError {
-        match self.peek() {
+    /// What is wrong where a rule of the grammar met something else.
+    fn at(text: &str, offset: usize, error: &ContextError<Wanted>) -> Self {
+        // Where nothing was wanted, the formula was whole.
+        let wanted = error.context().next().copied().unwrap_or(Wanted("an operator"));
+        let rest = &text[offset..];
+        FormulaError::new(text, offset, |place| match rest.chars().next() {
+            None => format!("it ends where {wanted} should stand"),
+            Some(')') if wanted == Wanted("an operator") => format!("`)` {place} was never opened"),
+            Some(c) if wanted == OPERAND && c.is_alphabetic() => {
+                let name: String = rest.chars().take_while(|c| is_part_of_name(*c)).collect();
+                format!("`{name}` {place} isn't known")
+            }
+            Some(c) if wanted == OPERAND && c.is_ascii_digit() => {
+                let is_part = |c: &char| c.is_ascii_alphanumeric() || *c == '.';
+                let number: String = rest.chars().take_while(is_part).collect();
+                format!("`{number}` {place} isn't a number")
+            }
             Some(c) => {
                 let c = if c.is_control() { '\u{fffd}' } else { c };
-                self.error(format!("`{c}` at {} stands where {wanted} should", self.place()))
+                format!("`{c}` {place} stands where {wanted} should")
             }
-            None => self.error(format!("it ends where {wanted} should stand")),
-        }
+        })
     }
+}
 
-    /// The next character, if it is one of these.
-    fn take(&mut self, wanted: &[char]) -> Option<char> {
-        let c = self.peek().filter(|c| wanted.contains(c))?;
-        self.at += 1;
-        Some(c)
+/// What the grammar wants where it meets something else.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Wanted(&'static str);
+
+impl fmt::Display for Wanted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0)
     }
+}
 
-    fn sum(&mut self) -> Result<Expression, FormulaError> {
-        let mut left = self.product()?;
-        while let Some(operator) = self.take(&['+', '-']) {
-            left = Expression::Binary(operator, Box::new([left, self.product()?]));
-        }
-        Ok(left)
-    }
+const OPERAND: Wanted = Wanted("a number, `s`, a function or `(`");
 
-    fn product(&mut self) -> Result<Expression, FormulaError> {
-        let mut left = self.signed()?;
-        while let Some(operator) = self.take(&['*', '/']) {
-            left = Expression::Binary(operator, Box::new([left, self.signed()?]));
-        }
-        Ok(left)
-    }
+type Parsed<T> = ModalResult<T, ContextError<Wanted>>;
 
-    /// Signs, and what they stand before; every way into depth passes here.
-    fn signed(&mut self) -> Result<Expression, FormulaError> {
-        /// Deeper nesting might leave the stack.
-        const DEEPEST: usize = 100;
-        self.depth += 1;
-        if self.depth > DEEPEST {
-            return Err(self.error(format!("it is nested too deeply at {}", self.place())));
-        }
-        let expression = match self.take(&['+', '-']) {
-            Some('-') => Expression::Negative(Box::new(self.signed()?)),
-            Some(_) => self.signed()?,
-            None => self.power()?,
-        };
-        self.depth -= 1;
-        Ok(expression)
-    }
-
-    fn power(&mut self) -> Result<Expression, FormulaError> {
-        let base = self.atom()?;
-        match self.take(&['^']) {
-            Some(_) => Ok(Expression::Binary('^', Box::new([base, self.signed()?]))),
-            None => Ok(base),
-        }
-    }
-
-    fn atom(&mut self) -> Result<Expression, FormulaError> {
-        match self.peek() {
-            Some('(') => self.parenthesis(),
-            Some(c) if c.is_ascii_digit() || c == '.' => self.number(),
-            Some(c) if c.is_alphabetic() => self.name(),
-            _ => Err(self.unexpected("a number, `s`, a function or `(`")),
-        }
-    }
-
-    fn parenthesis(&mut self) -> Result<Expression, FormulaError> {
-        if self.take(&['(']).is_none() {
-            return Err(self.unexpected("`(`"));
-        }
-        let inner = self.sum()?;
-        if self.take(&[')']).is_none() {
-            return Err(self.unexpected("`)` or an operator"));
-        }
-        Ok(inner)
-    }
-
-    fn number(&mut self) -> Result<Expression, FormulaError> {
-        let start = self.at;
-        let mut end = start;
-        let digits = |mut i: usize| {
-            while self.text.get(i).is_some_and(|c| c.is_ascii_digit() || *c == '.') {
-                i += 1;
+/// The grammar: operators and how tightly each binds. A sign stands between products and powers.
+fn sum(input: &mut &str) -> Parsed<Expression> {
+    expression(delimited(multispace0, operand, multispace0))
+        .prefix(preceded(
+            multispace0,
+            dispatch! {peek(any);
+                '+' => any.value(Prefix(3, |_: &mut _, a| Ok(a))),
+                '-' => any.value(Prefix(3, |_: &mut _, a| Ok(Expression::Negative(Box::new(a))))),
+                _ => fail,
             }
-            i
-        };
-        end = digits(end);
-        if self.text.get(end).is_some_and(|c| matches!(c, 'e' | 'E')) {
-            let signed = self.text.get(end + 1).is_some_and(|c| matches!(c, '+' | '-'));
-            let exponent = end + 1 + usize::from(signed);
-            if self.text.get(exponent).is_some_and(char::is_ascii_digit) {
-                end = digits(exponent);
-            }
-        }
-        let text: String = self.text[start..end].iter().collect();
-        match text.parse::<f64>() {
-            Ok(number) if number.is_finite() => {
-                self.at = end;
-                Ok(Expression::Number(number))
-            }
-            _ => Err(self.error(format!("`{text}` at {} isn't a number", self.place()))),
-        }
-    }
+            .context(OPERAND),
+        ))
+        .infix(dispatch! {peek(any);
+            '+' => any.value(Infix::Left(1, |_: &mut _, a, b| Ok(binary('+', a, b)))),
+            '-' => any.value(Infix::Left(1, |_: &mut _, a, b| Ok(binary('-', a, b)))),
+            '*' => any.value(Infix::Left(2, |_: &mut _, a, b| Ok(binary('*', a, b)))),
+            '/' => any.value(Infix::Left(2, |_: &mut _, a, b| Ok(binary('/', a, b)))),
+            '^' => any.value(Infix::Right(4, |_: &mut _, a, b| Ok(binary('^', a, b)))),
+            _ => fail,
+        })
+        .parse_next(input)
+}
 
-    fn name(&mut self) -> Result<Expression, FormulaError> {
-        let start = self.at;
-        let is_part = |c: &&char| c.is_alphanumeric() || **c == '_';
-        let name: String = self.text[start..].iter().take_while(is_part).collect();
-        let after = start + name.chars().count();
-        let known = match name.as_str() {
-            "s" => Some(Expression::S),
-            "pi" => Some(Expression::Number(std::f64::consts::PI)),
-            "e" => Some(Expression::Number(std::f64::consts::E)),
-            _ => None,
-        };
-        if let Some(known) = known {
-            self.at = after;
-            return Ok(known);
-        }
-        let Some(function) = FUNCTIONS.into_iter().find(|known| *known == name) else {
-            return Err(self.error(format!("`{name}` at {} isn't known", self.place())));
-        };
-        self.at = after;
-        Ok(Expression::Function(function, Box::new(self.parenthesis()?)))
+fn binary(operator: char, left: Expression, right: Expression) -> Expression {
+    Expression::Binary(operator, Box::new([left, right]))
+}
+
+fn operand(input: &mut &str) -> Parsed<Expression> {
+    dispatch! {peek(any);
+        '(' => parenthesis,
+        '0'..='9' | '.' => cut_err(number),
+        c if is_part_of_name(c) => cut_err(name),
+        _ => fail,
     }
+    .context(OPERAND)
+    .parse_next(input)
+}
+
+fn parenthesis(input: &mut &str) -> Parsed<Expression> {
+    delimited(
+        '('.context(Wanted("`(`")),
+        cut_err(sum),
+        cut_err(')').context(Wanted("`)` or an operator")),
+    )
+    .parse_next(input)
+}
+
+fn number(input: &mut &str) -> Parsed<Expression> {
+    float.verify(|number: &f64| number.is_finite()).map(Expression::Number).parse_next(input)
+}
+
+fn is_part_of_name(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+/// A variable, a constant, or a function of what stands in parentheses after it.
+fn name(input: &mut &str) -> Parsed<Expression> {
+    let mut known = take_while(1.., is_part_of_name).verify_map(|name: &str| match name {
+        "s" => Some(Known::Value(Expression::S)),
+        "pi" => Some(Known::Value(Expression::Number(std::f64::consts::PI))),
+        "e" => Some(Known::Value(Expression::Number(std::f64::consts::E))),
+        _ => FUNCTIONS.into_iter().find(|known| *known == name).map(Known::Function),
+    });
+    match known.parse_next(input)? {
+        Known::Value(value) => Ok(value),
+        Known::Function(function) => preceded(multispace0, parenthesis)
+            .map(|inner| Expression::Function(function, Box::new(inner)))
+            .parse_next(input),
+    }
+}
+
+enum Known {
+    Value(Expression),
+    Function(&'static str),
 }

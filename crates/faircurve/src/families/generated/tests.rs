@@ -72,15 +72,22 @@ fn errors_say_which_character_is_wrong() {
         ("sin s", "`s` at character 5 stands where `(` should"),
         ("(s", "it ends where `)` or an operator should stand"),
         ("s)", "`)` at character 2 was never opened"),
-        ("1.2.3", "`1.2.3` at character 1 isn't a number"),
+        ("1.2.3", "`.` at character 4 stands where an operator should"),
+        ("2*1e999", "`1e999` at character 3 isn't a number"),
+        ("2 - (s + 3s)", "`s` at character 11 stands where `)` or an operator should"),
         ("é + s", "`é` at character 1 isn't known"),
     ] {
         let error = text.parse::<Formula>().unwrap_err();
         assert_eq!(error.to_string(), message, "{text}");
     }
-    assert!("(".repeat(5000).parse::<Formula>().is_err());
-    assert!("-".repeat(900).parse::<Formula>().is_err());
-    assert!(("1^".repeat(450) + "1").parse::<Formula>().is_err());
+    for part in ["(", "-", "1^", "1^-(", "sin(", "s+(", "\u{1d4b}+"] {
+        // As deep as the length allows, and deeper.
+        for length in [480, 501, 5000] {
+            assert!(part.repeat(length / part.chars().count()).parse::<Formula>().is_err());
+        }
+    }
+    let deep = ("1^".repeat(249) + "s").parse::<Formula>().unwrap();
+    assert_eq!(deep.jet(3.0), [1.0, 0.0, 0.0, 0.0]);
 }
 
 #[test]

@@ -17,8 +17,8 @@ impl Rescue {
     /// Rebuilds a run around its most prominent segment; whether it settles there.
     pub(super) fn bridge<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>) -> bool {
         /// Segments less prominent than this don't dominate their neighbours. Anything from 1 to 10
-        /// does about as well.
-        const PROMINENT: f64 = 9.0;
+        /// solves about as many; up to 5 the straight forms also replace loops of closed walks of 4.
+        const PROMINENT: f64 = 5.0;
         let n = system.knots.len();
         let candidates = (0..system.parameters.len()).map(|i| (system.prominence(i), i));
         let Some((_, segment)) = candidates
