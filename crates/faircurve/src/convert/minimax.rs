@@ -173,8 +173,7 @@ pub(super) fn measure(piece: &Piece, arms: [f64; 2], mut params: [f64; NODES]) -
         params[i] = t;
         deviation[i] = i0 - place.im + (i1 + (i2 + i3 * t) * t) * t;
     }
-    let mut error = largest(&on_grid_between(piece.offsets, &deviation));
-    error = error.max(piece.offsets[0].abs()).max(piece.offsets[1].abs());
+    let mut error = largest(&deviation_on_grid(piece, &deviation), piece.offsets);
     // Where the cubic stands still or runs backwards beside the piece, it isn't a fit; nor is NaN.
     if !(slowest > 0.0) || deviation.iter().any(|d| d.is_nan()) {
         error = f64::INFINITY;
@@ -225,31 +224,55 @@ fn on_grid(nodes: &[f64; NODES]) -> [f64; GRID] {
     values
 }
 
-/// The same of a deviation that isn't zero at the ends, though its slope is: less a cubic that is as large there.
-fn on_grid_between([from, to]: [f64; 2], nodes: &[f64; NODES]) -> [f64; GRID] {
-    if from == 0.0 && to == 0.0 {
-        return on_grid(nodes);
-    }
-    let blend = |x: f64| (to + from) / 2.0 + (to - from) / 4.0 * x * (3.0 - x * x);
-    let mut rest = *nodes;
-    for (value, x) in rest.iter_mut().zip(PLACES) {
-        *value -= blend(x);
-    }
-    let mut values = on_grid(&rest);
-    for (g, value) in values.iter_mut().enumerate() {
-        *value += blend(-(std::f64::consts::PI * (g + 1) as f64 / (GRID + 1) as f64).cos());
+/// What a value or a slope of 1 at one of the ends adds to that: Hermite's cubic for it, less what [`on_grid`] makes of
+/// its values at the nodes. Value and slope at x = −1; those at 1 follow by symmetry.
+static END_WEIGHTS: LazyLock<[[f64; GRID]; 2]> = LazyLock::new(|| {
+    let hermite: [fn(f64) -> f64; 2] =
+        [|x| (1.0 - x) * (1.0 - x) * (2.0 + x) / 4.0, |x| (1.0 - x) * (1.0 - x) * (1.0 + x) / 4.0];
+    hermite.map(|hermite| {
+        let mut values = on_grid(&PLACES.map(hermite)).map(|v| -v);
+        for (g, value) in values.iter_mut().enumerate() {
+            *value += hermite(-(std::f64::consts::PI * (g + 1) as f64 / (GRID + 1) as f64).cos());
+        }
+        values
+    })
+});
+
+/// The deviation of a cubic from a piece, whose values and slopes at the ends may be other than zero.
+fn deviation_on_grid(piece: &Piece, nodes: &[f64; NODES]) -> [f64; GRID] {
+    let mut values = on_grid(nodes);
+    let Piece { offsets, slopes, .. } = piece;
+    if *offsets != [0.0; 2] || *slopes != [0.0; 2] {
+        let [by_value, by_slope] = &*END_WEIGHTS;
+        for g in 0..GRID {
+            let mirrored = GRID - 1 - g;
+            values[g] += (offsets[0] * by_value[g] + slopes[0] * by_slope[g])
+                + (offsets[1] * by_value[mirrored] - slopes[1] * by_slope[mirrored]);
+        }
     }
     values
 }
 
-/// The largest absolute value on the grid, between its points by a parabola.
-fn largest(values: &[f64; GRID]) -> f64 {
-    let mut top = 0;
-    for g in 1..GRID {
-        if values[g].abs() > values[top].abs() {
-            top = g;
+/// Where the deviation is largest, not counting how it comes down from the ends: those are as they are, and
+/// a search for the longest piece is to see what its length changes.
+fn worst_lobe(values: &[f64; GRID], ends: [f64; 2]) -> Option<usize> {
+    let [mut first, mut last] = [0, GRID - 1];
+    if ends[0] != 0.0 {
+        while first < last && values[first + 1].abs() <= values[first].abs() {
+            first += 1;
         }
     }
+    if ends[1] != 0.0 {
+        while last > first && values[last - 1].abs() <= values[last].abs() {
+            last -= 1;
+        }
+    }
+    (first..=last).max_by(|a, b| values[*a].abs().total_cmp(&values[*b].abs()))
+}
+
+/// The largest lobe, between points of the grid by a parabola.
+fn largest(values: &[f64; GRID], ends: [f64; 2]) -> f64 {
+    let Some(top) = worst_lobe(values, ends) else { return 0.0 };
     let (offset, _) = vertex(values, top);
     parabola(values, top, offset).abs().max(values[top].abs())
 }
@@ -325,7 +348,7 @@ fn exchange(piece: &Piece, fit: &Fit) -> Option<([f64; 2], f64)> {
         by_a[i] = 3.0 * u * u * t * cross(tangent, t0);
         by_b[i] = -3.0 * u * t * t * cross(tangent, t1);
     }
-    let n = on_grid_between(piece.offsets, &fit.deviation);
+    let n = deviation_on_grid(piece, &fit.deviation);
     let (by_a, by_b) = (on_grid(&by_a), on_grid(&by_b));
     let at = |reference: [usize; 3]| {
         (reference.map(|g| n[g]), reference.map(|g| by_a[g]), reference.map(|g| by_b[g]))
@@ -341,13 +364,10 @@ fn exchange(piece: &Piece, fit: &Fit) -> Option<([f64; 2], f64)> {
     for _ in 0..MOST_EXCHANGES {
         let (rn, ra, rb) = at(reference);
         let step = solved.step(rn, ra, rb)?;
-        let mut worst = 0;
         for g in 0..GRID {
             left[g] = n[g] + by_a[g] * step[0] + by_b[g] * step[1];
-            if left[g].abs() > left[worst].abs() {
-                worst = g;
-            }
         }
+        let Some(worst) = worst_lobe(&left, piece.offsets) else { break };
         if !(left[worst].abs() > solved.level.abs() * 1.000_001) {
             break;
         }
