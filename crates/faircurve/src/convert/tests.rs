@@ -120,7 +120,6 @@ fn named(name: &str) -> Segment {
 
 #[test]
 fn equal_errors_and_their_places_agree_with_the_reference() {
-    let mut compared = 0;
     for case in reference()["segments"]["equal_error"].as_array().unwrap() {
         let name = case["curve"].as_str().unwrap();
         let n = case["n"].as_u64().unwrap() as usize;
@@ -130,32 +129,34 @@ fn equal_errors_and_their_places_agree_with_the_reference() {
         }
         let all = [named(name)];
         let stretch = Stretch::new(&all);
-        let accuracy = wanted * 1.2;
+        let is_symmetric = name.ends_with("[-1.5,1.5]");
+        // Of the symmetric spiral, four pieces are hardly better than three.
+        let room = if is_symmetric && n == 4 { 1.02 } else { 1.2 };
+        let accuracy = wanted * room;
         let fitter = Fitter { accuracy, ..fitter(&stretch, Fit::Optimal) };
-        let cubics = cuts::cut(&fitter, Cuts::EqualErrors, 0.0, stretch.length());
-        if cubics.len() < n {
-            // With the room that it is given, one less is enough.
-            continue;
-        }
-        let largest = cubics.iter().fold(0.0f64, |largest, cubic| largest.max(cubic.error));
-        assert!(largest <= accuracy);
-        // Errors aren't monotone: other cuts are as even (3, 4), or none near the reference's are reached (2, 5).
-        let is_ambiguous =
-            [("[0,2.5]", 2), ("[-1.5,1.5]", 3), ("[-1.5,1.5]", 4), ("[-1.5,1.5]", 5)]
-                .into_iter()
-                .any(|(range, pieces)| name.ends_with(range) && n == pieces);
-        if is_ambiguous {
-            continue;
-        }
         let places = case["breakpoints"].as_array().unwrap();
-        for (cubic, place) in cubics.iter().zip(&places[1..]) {
-            let place = number(place) - number(&places[0]);
-            assert!((cubic.to - place).abs() < 1e-6, "{name} {n}: {} {place}", cubic.to);
-            assert_close(name, cubic.error, wanted, 2e-6);
+        let places: Vec<f64> = places.iter().map(|p| number(p) - number(&places[0])).collect();
+        // The reference's own cuts.
+        for pair in places.windows(2) {
+            let to = pair[1].min(stretch.length());
+            assert_close(name, fitter.try_piece(pair[0], to).error, wanted, 2e-6);
         }
-        compared += 1;
+        let cubics = cuts::cut(&fitter, Cuts::EqualErrors, 0.0, stretch.length());
+        assert_eq!(cubics.len(), n, "{name}");
+        let mean = cubics.iter().map(|cubic| cubic.error).sum::<f64>() / n as f64;
+        for cubic in &cubics {
+            assert_close(name, cubic.error, mean, 2e-6);
+        }
+        // Errors aren't monotone, so that there may be several such cuts: here ours isn't the symmetric one.
+        if is_symmetric && n == 3 {
+            assert!(mean < 1.03 * wanted, "{mean:e}");
+            continue;
+        }
+        assert_close(name, mean, wanted, 2e-6);
+        for (cubic, place) in cubics.iter().zip(&places[1..]) {
+            assert!((cubic.to - place).abs() < 1e-6, "{name} {n}: {} {place}", cubic.to);
+        }
     }
-    assert!(compared >= 16, "{compared}");
 }
 
 /// Curves of arc length about 1000, with inflections, extrema of curvature, and ones that wind.
