@@ -268,15 +268,13 @@ fn difference(series: &Series, cubic: &LocalCubic, phi: &[f64; 9]) -> Polynomial
 
 /// From powers of x to Chebyshev's polynomials, by Horner's rule: x·T₀ = T₁, x·Tⱼ = (Tⱼ₋₁ + Tⱼ₊₁)/2.
 fn to_chebyshev<const N: usize>(powers: [f64; N]) -> [f64; N] {
-    // One more than is needed on both sides, so that the inner loop has no cases.
     let mut c = [0.0; N];
-    for (degree, power) in powers.into_iter().rev().enumerate() {
+    for power in powers.into_iter().rev() {
         let old = c;
         for j in 1..N {
             let above = if j + 1 < N { old[j + 1] } else { 0.0 };
             c[j] = 0.5 * (old[j - 1] + above);
         }
-        let _ = degree;
         if N > 1 {
             c[1] += 0.5 * old[0];
             c[0] = 0.5 * old[1];

@@ -6,6 +6,7 @@ use crate::numeric::roots::monotone_root;
 
 use super::fitter::{Candidate, Cubic, Fitter};
 use super::options::Cuts;
+use super::tuning::{AIM, CLOSE, FITS, LAW_IS_CLOSE, NO_ZERO_NEAR};
 
 /// The cubics for what lies between two places.
 pub(super) fn cut(fitter: &Fitter<'_>, cuts: Cuts, from: f64, to: f64) -> Vec<Cubic> {
@@ -202,13 +203,6 @@ fn balanced(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
     if even.iter().all(|cubic| cubic.error <= fitter.accuracy) { even } else { greedy }
 }
 
-/// Estimates within this of what they estimate, in the typical case; what the greedy search aims at. Closer, and
-/// the certificate rejects more of them; farther, and cubics get shorter by a sixth of the difference.
-const AIM: f64 = 0.99;
-
-/// Good enough: at the sixth order the cubic is within half a percent of the longest.
-const CLOSE: f64 = 0.965;
-
 /// Cubics that each reach as far as the accuracy allows (section 9.6.4).
 pub(super) fn greedy(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
     let mut cubics: Vec<Cubic> = Vec::new();
@@ -312,8 +306,6 @@ impl Search {
 /// A longer cubic than the longest of a stretch of lengths: the error isn't monotone. It falls again
 /// where E₆, a function of the piece's middle, changes its sign.
 fn beyond(fitter: &Fitter<'_>, cubic: &Cubic, to: f64, shortest: f64) -> Option<Cubic> {
-    /// The sixth power of the length less what E₆ loses; steeper, and no zero is near.
-    const STEEP: f64 = 5.0;
     /// Where it is looked for: steps of 5 % up to twice the length.
     const STEP: f64 = 1.05;
     const MOST_STEPS: usize = 14;
@@ -329,7 +321,7 @@ fn beyond(fitter: &Fitter<'_>, cubic: &Cubic, to: f64, shortest: f64) -> Option<
             return None;
         }
         let error = fitter.law(from, from + longer)?;
-        if step == 0 && error > before * STEP.powf(STEEP) {
+        if step == 0 && error > before * STEP.powf(NO_ZERO_NEAR) {
             return None;
         }
         if error < before && error < fitter.accuracy {
@@ -368,7 +360,7 @@ fn longest_estimate(
     for _ in 0..MOST_TRIALS {
         let candidate = fitter.try_piece(from, end(from, length, to));
         let (tried, error) = (candidate.piece.to - from, candidate.error);
-        if error <= fitter.accuracy * 0.998 {
+        if error <= FITS * fitter.accuracy {
             search.fits = Some(candidate);
             if error >= CLOSE * fitter.accuracy || candidate.piece.to >= to {
                 return candidate;
@@ -414,8 +406,6 @@ fn longest_estimate(
 /// The length that the sixth-order theory gives a cubic from `from`; `guess` where it has nothing
 /// to say.
 pub(super) fn predict(fitter: &Fitter<'_>, from: f64, to: f64, guess: f64) -> f64 {
-    /// The theory itself is good to a percent or two, where it is good at all.
-    const CLOSE: f64 = 0.03;
     let mut length = guess.min(to - from);
     for _ in 0..4 {
         let Some(error) = fitter.law(from, from + length) else { return length };
@@ -425,7 +415,7 @@ pub(super) fn predict(fitter: &Fitter<'_>, from: f64, to: f64, guess: f64) -> f6
             return length;
         }
         let next = (length * factor.clamp(0.4, 2.5)).min(to - from);
-        if (ratio - 1.0).abs() < CLOSE || next == length {
+        if (ratio - 1.0).abs() < LAW_IS_CLOSE || next == length {
             return next;
         }
         length = next;

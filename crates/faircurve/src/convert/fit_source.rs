@@ -79,7 +79,7 @@ impl ParamCurveFit for Curve {
 }
 
 /// Radians: 16 nodes integrate products of three coordinates and direction over this much of a turn to rounding.
-pub(super) const PANEL: f64 = 2.0;
+const PANEL: f64 = 2.0;
 
 /// What arc lengths are off by after a fraction and back, as a part of the whole.
 const ROUNDING: f64 = 1e-13;

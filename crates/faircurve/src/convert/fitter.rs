@@ -9,6 +9,7 @@ use super::minimax::{Fit as Arms, LocalCubic, first_params, measure, minimax};
 use super::options::{Fit, Metric};
 use super::piece::{Piece, Shift, Stretch};
 use super::single;
+use super::tuning::{HOPELESS, SHORT};
 
 /// Fits cubics to pieces of one stretch.
 #[derive(Clone, Copy, Debug)]
@@ -21,12 +22,6 @@ pub(super) struct Fitter<'a> {
     /// How cubics start and end.
     pub(super) shifts: [Shift; 2],
 }
-
-/// Pieces shorter than this part of a stretch that have no cubic with their end curvatures get the best one without.
-const SHORT: f64 = 1e-3;
-
-/// Cubics that are so many times farther off than allowed, which only the shortest pieces may be, get a cheap bound.
-const HOPELESS: f64 = 8.0;
 
 /// A cubic that may do.
 #[derive(Clone, Copy, Debug)]

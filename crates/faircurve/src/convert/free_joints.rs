@@ -11,6 +11,7 @@
 use super::cuts::{farthest, greedy, predict, shortest};
 use super::fitter::{Cubic, Fitter};
 use super::piece::Shift;
+use super::tuning::{BEHIND, LARGEST_OFFSET, MOST_TURN, SLOPE};
 
 /// How a joint may stand to the curve.
 #[derive(Clone, Copy, Debug)]
@@ -32,18 +33,6 @@ const ALL: [Stand; STANDS] = [
     Stand { offset: 0.0, slope: SLOPE },
     Stand { offset: 0.0, slope: -SLOPE },
 ];
-
-/// As a part of the accuracy: what the deviation between may be, less what the certificate is too large by.
-const LARGEST_OFFSET: f64 = 0.985;
-
-/// T₆ crosses zero with 21; a deviation whose E₆ vanishes there, too, is flatter.
-const SLOPE: f64 = 13.0;
-
-/// Radians. Where cubics are hardly longer than the accuracy, turned tangents would show.
-const MOST_TURN: f64 = 0.05;
-
-/// Joints farther behind the farthest than this part of a cubic are given up: the most that a stand is worth is 0.06.
-const BEHIND: f64 = 0.1;
 
 /// How a joint is reached.
 #[derive(Clone, Copy, Debug)]

@@ -5,12 +5,14 @@
 //! for the arms and the deviation, and an exchange finds the places (Remez). A few rounds of this
 //! from the cubics in sixth-order [contact](super::contact).
 
-use std::sync::LazyLock;
-
 use num_complex::Complex64;
 
 use super::contact::{MINIMAX_Q, Start, contact_starts, cross, dot};
+use super::grid::{GRID, deviation_on_grid, largest, on_grid, parabola, vertex, worst_lobe};
 use super::piece::{NODES, PLACES, Piece};
+use super::tuning::{
+    CONTACT_ROUNDS, CRUDE_ROUNDS, GOOD_ENOUGH, LONG, MOST_EXCHANGES, WORTH_TRYING,
+};
 
 /// A cubic in the frame of a piece, by powers of its parameter.
 #[derive(Clone, Copy, Debug)]
@@ -71,21 +73,8 @@ impl Fit {
     }
 }
 
-/// Rounds of the exchange for a start by contact, where one or two are enough, and for a cruder one.
-const CONTACT_ROUNDS: usize = 3;
-const CRUDE_ROUNDS: usize = 8;
-
-/// A deviation within this factor of the best that the exchange promises is good enough: the cuts
-/// lose a sixth of it in length.
-const GOOD_ENOUGH: f64 = 1.01;
-
 /// The best of the local minima of the largest deviation that were found.
 pub(super) fn minimax(piece: &Piece) -> Fit {
-    /// A contact worse than the best by more than this isn't tried: higher terms don't
-    /// change a deviation by so much on the pieces that a conversion ends up with.
-    const WORTH_TRYING: f64 = 4.0;
-    /// Pieces that turn more than this (radians) are too long for the expansion to be trusted alone.
-    const LONG: f64 = 1.5;
     let mut best: Option<Fit> = None;
     let mut consider = |fit: Fit| {
         if best.is_none_or(|best| fit.error < best.error) {
@@ -182,123 +171,6 @@ pub(super) fn measure(piece: &Piece, arms: [f64; 2], mut params: [f64; NODES]) -
     Fit { arms, params, deviation, error }
 }
 
-/// Places at which deviations are known: ϑ = π/32 … 31π/32, x = −cos ϑ. The best cubic's lobes are about 5 wide.
-const GRID: usize = 31;
-
-/// Values on the grid from those at the nodes: a deviation, or what an arm adds to it, is zero twice at both ends, and
-/// (1 − x²)² times the polynomial of degree 6 through the rest. Even and odd parts apart: the weights of the parts at
-/// 0, 0.34, 0.6355, 0.9 for x = cos ϑ ≥ 0.
-static WEIGHTS: LazyLock<[([f64; 4], [f64; 3]); GRID / 2 + 1]> = LazyLock::new(|| {
-    let nodes = [0.0, PLACES[4], PLACES[5], PLACES[6]];
-    let end = |x: f64| (1.0 - x * x) * (1.0 - x * x);
-    std::array::from_fn(|g| {
-        let x = (std::f64::consts::PI * (g + 1) as f64 / (GRID + 1) as f64).cos();
-        let x = if g == GRID / 2 { 0.0 } else { x };
-        let lagrange = |nodes: &[f64], i: usize| -> f64 {
-            let others = nodes.iter().enumerate().filter(|(j, _)| *j != i);
-            others.map(|(_, m)| (x * x - m * m) / (nodes[i] * nodes[i] - m * m)).product()
-        };
-        let even = std::array::from_fn(|i| lagrange(&nodes, i) * end(x) / end(nodes[i]));
-        let odd = std::array::from_fn(|i| {
-            lagrange(&nodes[1..], i) * x / nodes[i + 1] * end(x) / end(nodes[i + 1])
-        });
-        (even, odd)
-    })
-});
-
-fn on_grid(nodes: &[f64; NODES]) -> [f64; GRID] {
-    let mut even = [nodes[3], 0.0, 0.0, 0.0];
-    let mut odd = [0.0; 3];
-    for i in 0..3 {
-        even[i + 1] = 0.5 * (nodes[4 + i] + nodes[2 - i]);
-        odd[i] = 0.5 * (nodes[4 + i] - nodes[2 - i]);
-    }
-    let mut values = [0.0; GRID];
-    for (g, (for_even, for_odd)) in WEIGHTS.iter().enumerate() {
-        let e = (for_even[0] * even[0] + for_even[1] * even[1])
-            + (for_even[2] * even[2] + for_even[3] * even[3]);
-        let o = for_odd[0] * odd[0] + for_odd[1] * odd[1] + for_odd[2] * odd[2];
-        values[GRID - 1 - g] = e + o;
-        values[g] = e - o;
-    }
-    values
-}
-
-/// What a value or a slope of 1 at one of the ends adds to that: Hermite's cubic for it, less what [`on_grid`] makes of
-/// its values at the nodes. Value and slope at x = −1; those at 1 follow by symmetry.
-static END_WEIGHTS: LazyLock<[[f64; GRID]; 2]> = LazyLock::new(|| {
-    let hermite: [fn(f64) -> f64; 2] =
-        [|x| (1.0 - x) * (1.0 - x) * (2.0 + x) / 4.0, |x| (1.0 - x) * (1.0 - x) * (1.0 + x) / 4.0];
-    hermite.map(|hermite| {
-        let mut values = on_grid(&PLACES.map(hermite)).map(|v| -v);
-        for (g, value) in values.iter_mut().enumerate() {
-            *value += hermite(-(std::f64::consts::PI * (g + 1) as f64 / (GRID + 1) as f64).cos());
-        }
-        values
-    })
-});
-
-/// The deviation of a cubic from a piece, whose values and slopes at the ends may be other than zero.
-fn deviation_on_grid(piece: &Piece, nodes: &[f64; NODES]) -> [f64; GRID] {
-    let mut values = on_grid(nodes);
-    let Piece { offsets, slopes, .. } = piece;
-    if *offsets != [0.0; 2] || *slopes != [0.0; 2] {
-        let [by_value, by_slope] = &*END_WEIGHTS;
-        for g in 0..GRID {
-            let mirrored = GRID - 1 - g;
-            values[g] += (offsets[0] * by_value[g] + slopes[0] * by_slope[g])
-                + (offsets[1] * by_value[mirrored] - slopes[1] * by_slope[mirrored]);
-        }
-    }
-    values
-}
-
-/// Where the deviation is largest, not counting how it comes down from the ends: those are as they are, and
-/// a search for the longest piece is to see what its length changes.
-fn worst_lobe(values: &[f64; GRID], ends: [f64; 2]) -> Option<usize> {
-    let [mut first, mut last] = [0, GRID - 1];
-    if ends[0] != 0.0 {
-        while first < last && values[first + 1].abs() <= values[first].abs() {
-            first += 1;
-        }
-    }
-    if ends[1] != 0.0 {
-        while last > first && values[last - 1].abs() <= values[last].abs() {
-            last -= 1;
-        }
-    }
-    (first..=last).max_by(|a, b| values[*a].abs().total_cmp(&values[*b].abs()))
-}
-
-/// The largest lobe, between points of the grid by a parabola.
-fn largest(values: &[f64; GRID], ends: [f64; 2]) -> f64 {
-    let Some(top) = worst_lobe(values, ends) else { return 0.0 };
-    let (offset, _) = vertex(values, top);
-    parabola(values, top, offset).abs().max(values[top].abs())
-}
-
-/// Where the parabola through three neighbours has its extremum, in steps from the middle one.
-fn vertex(values: &[f64; GRID], at: usize) -> (f64, f64) {
-    if at == 0 || at == GRID - 1 {
-        return (0.0, 0.0);
-    }
-    let (slope, bend) = slopes(values, at);
-    if bend == 0.0 { (0.0, 0.0) } else { ((-slope / bend).clamp(-0.5, 0.5), bend) }
-}
-
-fn slopes(values: &[f64; GRID], at: usize) -> (f64, f64) {
-    let (before, after) = (values[at - 1], values[at + 1]);
-    ((after - before) / 2.0, after - 2.0 * values[at] + before)
-}
-
-fn parabola(values: &[f64; GRID], at: usize, offset: f64) -> f64 {
-    if at == 0 || at == GRID - 1 {
-        return values[at];
-    }
-    let (slope, bend) = slopes(values, at);
-    values[at] + offset * (slope + offset * bend / 2.0)
-}
-
 /// Three equations n + a·sₐ + b·s_b = ±level, the signs those of the combination in which the arms cancel.
 struct Reference {
     level: f64,
@@ -337,8 +209,6 @@ impl Reference {
 /// The change of the arms that makes the largest deviation least, by the linear model, and what is
 /// then left.
 fn exchange(piece: &Piece, fit: &Fit) -> Option<([f64; 2], f64)> {
-    /// Each exchange raises the level; on ordinary pieces two or three are enough.
-    const MOST_EXCHANGES: usize = 12;
     let [t0, t1] = piece.end_tangents;
     let mut by_a = [0.0; NODES];
     let mut by_b = [0.0; NODES];

@@ -6,6 +6,7 @@ mod cuts;
 mod fit_source;
 mod fitter;
 mod free_joints;
+mod grid;
 mod metric;
 mod minimax;
 mod options;
@@ -14,6 +15,7 @@ mod series;
 mod single;
 #[cfg(test)]
 mod tests;
+mod tuning;
 
 use kurbo::{BezPath, CubicBez, PathSeg};
 
