@@ -100,7 +100,9 @@ impl Fitter<'_> {
         let lengths = arms.arms.map(|arm| arm * piece.half);
         let is_hopeless =
             arms.error * piece.half > HOPELESS * self.accuracy && self.metric == Metric::Distance;
-        let mut bound = distance_bound(self.stretch, piece, arms, is_hopeless);
+        // The other metrics set the distance no limit.
+        let limit = if self.metric == Metric::Distance { self.accuracy } else { f64::INFINITY };
+        let mut bound = distance_bound(self.stretch, piece, arms, limit, is_hopeless);
         if !bound.is_finite() {
             bound = farthest_apart(piece, lengths);
         }
