@@ -193,7 +193,7 @@ fn deviation(curve: &Curve, path: &BezPath, bound: f64) {
     let size = bounds.width().max(bounds.height()).max(largest_coordinate(bounds.center()));
     let length = curve.length();
     let largest_kappa =
-        curve.segments().iter().flat_map(Segment::kappa).fold(0.0f64, |a, k| a.max(k.abs()));
+        curve.segments().iter().flat_map(Segment::kappa).flatten().fold(0.0f64, |a, k| a.max(k.abs()));
     // Nearest points are no better than this.
     let resolution = 1e-11 * (size + length);
     if largest_kappa > 1e3 {
