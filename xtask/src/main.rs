@@ -8,12 +8,17 @@
 //! cargo xtask header              # write crates/faircurve-capi/include/faircurve.h
 //! cargo xtask header --check      # fail if the committed one isn't what cbindgen makes
 //! cargo xtask install-capi --prefix P   # build libspiro.so.1 and libfaircurve.so.0, install them with all that belongs to them
+//! cargo xtask npm                 # build the npm package into target/npm
+//! cargo xtask npm --test          # and test it as npm packs it, in Node and in a browser
+//! cargo xtask npm --bench         # and measure it: sizes, times beside others, a drag
 //! ```
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "this is a program")]
 
 mod family;
 mod header;
 mod install_capi;
+#[cfg(feature = "npm")]
+mod npm;
 mod pictures;
 mod speeds;
 
@@ -25,7 +30,8 @@ there is no such command
 hint: cargo xtask pictures [--check | --png DIR]
       cargo xtask speeds
       cargo xtask header [--check]
-      cargo xtask install-capi --prefix DIR";
+      cargo xtask install-capi --prefix DIR
+      cargo xtask npm [--test | --bench]";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -38,6 +44,7 @@ fn main() -> ExitCode {
         ["header"] => header::write(),
         ["header", "--check"] => header::check(),
         ["install-capi", "--prefix", prefix] => install_capi::install(Path::new(prefix)),
+        ["npm", rest @ ..] => npm(rest),
         _ => Err(USAGE.into()),
     };
     match done {
@@ -46,6 +53,34 @@ fn main() -> ExitCode {
             eprintln!("error: {message}");
             ExitCode::FAILURE
         }
+    }
+}
+
+#[cfg(feature = "npm")]
+fn npm(arguments: &[&str]) -> Result<(), String> {
+    let script = match arguments {
+        [] => None,
+        ["--test"] => Some("test"),
+        ["--bench"] => Some("bench"),
+        _ => return Err(USAGE.into()),
+    };
+    let package = npm::build()?;
+    match script {
+        Some(script) => npm::script(&package, script),
+        None => Ok(()),
+    }
+}
+
+/// Once more with what only this needs: wasm-bindgen takes a while to compile.
+#[cfg(not(feature = "npm"))]
+fn npm(arguments: &[&str]) -> Result<(), String> {
+    let mut again = std::process::Command::new("cargo");
+    again.args(["run", "--release", "-p", "xtask", "--features", "npm", "--", "npm"]);
+    let status = again.args(arguments).current_dir(root()).status();
+    match status {
+        Ok(status) if status.success() => Ok(()),
+        Ok(_) => Err("the npm package isn't built".into()),
+        Err(error) => Err(format!("can't run cargo: {error}")),
     }
 }
 

@@ -50,6 +50,8 @@ pub struct Run {
     pub knots: Vec<RunKnot>,
     /// Whether the last knot joins the first.
     pub closed: bool,
+    /// How many of the drawing's units the run's unit is: a power of two.
+    pub unit: f64,
 }
 
 impl Run {
@@ -57,6 +59,9 @@ impl Run {
     pub fn segment_count(&self) -> usize {
         if self.closed { self.knots.len() } else { self.knots.len() - 1 }
     }
+
+    /// A run without knots.
+    pub(crate) const EMPTY: Run = Run { knots: Vec::new(), closed: false, unit: 1.0 };
 
     /// The chord vector of segment `index`.
     pub fn chord(&self, index: usize) -> Vec2 {
@@ -70,7 +75,7 @@ impl Run {
         let count = if to > from { to - from } else { to + n - from };
         let mut knots: Vec<RunKnot> = (0..=count).map(|i| self.knots[(from + i) % n]).collect();
         (knots[0].turn, knots[count].turn) = (0.0, 0.0);
-        Run { knots, closed: false }
+        Run { knots, closed: false, unit: self.unit }
     }
 
     /// Fills in the turning angles.
@@ -235,12 +240,34 @@ struct RunPlace {
     reversed: bool,
 }
 
+impl RunPlace {
+    /// Which of `nodes` nodes knot `i` of the run is.
+    fn node_of(&self, run: &Run, i: usize, nodes: usize) -> usize {
+        let along = if self.reversed { run.knots.len() - 1 - i } else { i };
+        (self.first_node + along) % nodes
+    }
+
+    /// The node that segment `i` of the run leaves, in the contour's direction.
+    fn segment_of(&self, run: &Run, i: usize, nodes: usize) -> usize {
+        let count = run.segment_count();
+        let along = match (self.reversed, run.closed) {
+            (false, _) => i,
+            (true, false) => count - 1 - i,
+            // Backwards from the last knot, the closing segment comes last in both.
+            (true, true) => (2 * count - 2 - i) % count,
+        };
+        (self.first_node + along) % nodes
+    }
+}
+
 /// A contour made ready for one spline.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The input's points, in user units.
     points: Vec<Point>,
     closed: bool,
+    /// How many of the drawing's units the runs' unit is.
+    unit: f64,
     nodes: Vec<Node>,
     /// For each node segment, whether it is a straight line.
     straight: Vec<bool>,
@@ -267,6 +294,7 @@ impl Plan {
         let mut plan = Plan {
             points: contour.knots.iter().map(|knot| knot.point).collect(),
             closed: contour.closed,
+            unit: 1.0 / frame.scale,
             straight: Vec::new(),
             runs: Vec::new(),
             places: Vec::new(),
@@ -333,7 +361,7 @@ impl Plan {
         let mut stretches: Vec<(usize, Run)> = Vec::new();
         if segments > 0 && breaks.is_empty() {
             let knots = (0..n).map(|node| self.interior_knot(node)).collect();
-            stretches.push((0, Run { knots, closed: true }.measured()));
+            stretches.push((0, Run { knots, closed: true, unit: self.unit }.measured()));
         }
         for (b, &from) in breaks.iter().enumerate() {
             let to = match breaks.get(b + 1) {
@@ -348,7 +376,7 @@ impl Plan {
             let mut knots = vec![self.end_knot(from, true)];
             knots.extend((1..count).map(|i| self.interior_knot((from + i) % n)));
             knots.push(self.end_knot(to, false));
-            stretches.push((from, Run { knots, closed: false }.measured()));
+            stretches.push((from, Run { knots, closed: false, unit: self.unit }.measured()));
         }
         for (first_node, run) in stretches {
             if is_straight(&run) {
@@ -398,6 +426,24 @@ impl Plan {
         RunKnot { join, tangent, curvature, ..self.interior_knot(node) }
     }
 
+    /// The segments of a curve for such a contour, for each run those of its chords in its own
+    /// direction; empty if there are more or fewer than the contour's.
+    pub(crate) fn by_run(&self, segments: &[Segment]) -> Vec<Vec<Segment>> {
+        let expected = if self.closed { self.points.len() } else { self.points.len() - 1 };
+        if segments.len() != expected {
+            return Vec::new();
+        }
+        let of_run = |(place, run): (&RunPlace, &Run)| {
+            let segment = |i: usize| {
+                let segment =
+                    &segments[self.nodes[place.segment_of(run, i, self.nodes.len())].last];
+                if place.reversed { segment.reversed() } else { segment.clone() }
+            };
+            (0..run.segment_count()).map(segment).collect()
+        };
+        self.places.iter().zip(&self.runs).map(of_run).collect()
+    }
+
     /// Puts solved runs back together, in the input's numbering and units.
     ///
     /// # Panics
@@ -408,22 +454,9 @@ impl Plan {
         let mut report = SolveReport { adapted: self.adapted.clone(), ..SolveReport::default() };
         let mut shapes: Vec<Option<Segment>> = vec![None; segments];
         for ((place, run), solution) in self.places.iter().zip(&self.runs).zip(solved) {
-            let (knots, count) = (run.knots.len(), run.segment_count());
-            // Where the run's knots and segments lie among the nodes.
-            let node_of = |i: usize| {
-                let along = if place.reversed { knots - 1 - i } else { i };
-                (place.first_node + along) % n
-            };
-            let segment_of = |i: usize| {
-                let along = match (place.reversed, run.closed) {
-                    (false, _) => i,
-                    (true, false) => count - 1 - i,
-                    // Backwards from the last knot, the closing segment comes last in both.
-                    (true, true) => (2 * count - 2 - i) % count,
-                };
-                (place.first_node + along) % n
-            };
-            for (i, segment) in solution.segments.iter().enumerate().take(count) {
+            let node_of = |i: usize| place.node_of(run, i, n);
+            let segment_of = |i: usize| place.segment_of(run, i, n);
+            for (i, segment) in solution.segments.iter().enumerate().take(run.segment_count()) {
                 let segment = if place.reversed { segment.reversed() } else { segment.clone() };
                 shapes[segment_of(i)] = Some(segment);
             }
@@ -797,6 +830,7 @@ fn canonical(run: Run, first_node: usize, nodes: usize) -> (Run, usize, bool) {
     let backwards = Run {
         knots: run.knots.iter().rev().map(|knot| reversed_knot(*knot)).collect(),
         closed: run.closed,
+        unit: run.unit,
     };
     let backward = marks(&backwards);
     let start_of = |run: &Run, marks: &[Mark]| match run.closed {
@@ -821,7 +855,7 @@ fn canonical(run: Run, first_node: usize, nodes: usize) -> (Run, usize, bool) {
     let knots = (0..n).map(|i| chosen.knots[(start + i) % n]).collect();
     // Knot b of the reversed list is knot n − 1 − b; the walk ends at the one after it.
     let first = if keep { a } else { (n - b) % n };
-    (Run { knots, closed: run.closed }, (first_node + first) % nodes, !keep)
+    (Run { knots, closed: run.closed, unit: run.unit }, (first_node + first) % nodes, !keep)
 }
 
 /// What a knot looks like to someone who travels the run: its join, its turning angle without sign,

@@ -3,7 +3,7 @@
 use super::shape::{SegmentShape, StandIn};
 use super::tangents::{TangentRule, Tangents};
 use crate::catalog::SplineInfo;
-use crate::frame::wrap_angle;
+use crate::frame::{ChordAngles, wrap_angle};
 use crate::outline::Join;
 use crate::plan::Run;
 use crate::segment::Segment;
@@ -22,6 +22,11 @@ impl<R: TangentRule, S: SegmentShape> TwoParamSpline<R, S> {
     /// The catalogue's spline of that row.
     pub fn new(info: &'static SplineInfo, rule: R, shape: S) -> Self {
         TwoParamSpline { info, rule, shape }
+    }
+
+    /// The rule that gives tangents.
+    pub(crate) fn rule(&self) -> &R {
+        &self.rule
     }
 
     /// The curve through the knots of a run with these tangents.
@@ -175,6 +180,12 @@ impl<R: TangentRule, S: SegmentShape> Spline for TwoParamSpline<R, S> {
 
     fn solve_plainly(&self, run: &Run) -> Option<RunSolution> {
         let solved = self.draw(run, self.rule.tangents(run));
+        solved.relaxed.is_empty().then_some(solved)
+    }
+
+    fn follow(&self, run: &Run, near: &[Segment]) -> Option<RunSolution> {
+        let angles: Vec<ChordAngles> = near.iter().map(Segment::chord_angles).collect();
+        let solved = self.draw(run, self.rule.tangents_near(run, &angles));
         solved.relaxed.is_empty().then_some(solved)
     }
 
