@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use faircurve::catalog::{self, ENTRIES, ParamKind, Params};
-use faircurve::convert::{Conversion, Options, convert};
+use faircurve::convert::{Conversion, Fit, Metric, Options, convert, fit_single};
 use faircurve::kurbo::{ParamCurve, ParamCurveNearest, PathSeg, Point};
 use faircurve::segment::{Measured, ParametricCurve};
 use faircurve::{Contour, Curve, Join, Knot, Segment, Spline, solve};
@@ -167,6 +167,13 @@ fn curves_of_beziers_pass_through() {
             // Straight ones are lines.
             assert!(result.quadratics <= quadratics * segments, "{name}");
             assert!(result.cubics <= cubics * segments, "{name}");
+            if cubics == 1 {
+                for segment in curve.segments() {
+                    let own = segment.beziers().unwrap()[0].to_cubic();
+                    let single = fit_single(segment, Metric::AbsoluteAngle, Fit::Optimal);
+                    assert!(segment.is_line() || (single.cubic, single.error) == (own, 0.0));
+                }
+            }
         }
     }
 }

@@ -177,13 +177,16 @@ pub struct SingleFit {
 }
 
 /// One cubic for a whole segment, however far from it (thesis sections 9.3 to 9.5). A straight
-/// line has arms of a third of its length.
+/// line has arms of a third of its length; a segment that is one Bézier is its own best cubic.
 pub fn fit_single(segment: &Segment, metric: Metric, fit: Fit) -> SingleFit {
     if segment.is_line() || !(segment.length() > 0.0) {
         let (start, end) = (segment.start(), segment.end());
         let cubic =
             CubicBez::new(start, start.lerp(end, 1.0 / 3.0), start.lerp(end, 2.0 / 3.0), end);
         return SingleFit { cubic, error: 0.0 };
+    }
+    if let (Fit::Optimal | Fit::EndCurvature, Some([own])) = (fit, segment.beziers().as_deref()) {
+        return SingleFit { cubic: own.to_cubic(), error: 0.0 };
     }
     let all = std::slice::from_ref(segment);
     let stretch = Stretch::new(all);
