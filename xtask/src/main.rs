@@ -5,10 +5,15 @@
 //! cargo xtask pictures --check    # fail if a committed one isn't what the code draws
 //! cargo xtask pictures --png DIR  # the same as PNG, to look at
 //! cargo xtask speeds              # measure the table in docs/speeds.md
+//! cargo xtask npm                 # build the npm package into target/npm
+//! cargo xtask npm --test          # and test it as npm packs it, in Node and in a browser
+//! cargo xtask npm --bench         # and measure it: sizes, times beside others, a drag
 //! ```
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "this is a program")]
 
 mod family;
+#[cfg(feature = "npm")]
+mod npm;
 mod pictures;
 mod speeds;
 
@@ -23,7 +28,8 @@ fn main() -> ExitCode {
         ["pictures", "--check"] => pictures::check(),
         ["pictures", "--png", folder] => pictures::draw_png(Path::new(folder)),
         ["speeds"] => speeds::write(),
-        _ => Err("usage: cargo xtask pictures [--check | --png DIR], or cargo xtask speeds".into()),
+        ["npm", rest @ ..] => npm(rest),
+        _ => Err(USAGE.into()),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -31,6 +37,37 @@ fn main() -> ExitCode {
             eprintln!("error: {message}");
             ExitCode::FAILURE
         }
+    }
+}
+
+const USAGE: &str = "usage: cargo xtask pictures [--check | --png DIR], cargo xtask speeds, \
+                     or cargo xtask npm [--test | --bench]";
+
+#[cfg(feature = "npm")]
+fn npm(arguments: &[&str]) -> Result<(), String> {
+    let script = match arguments {
+        [] => None,
+        ["--test"] => Some("test"),
+        ["--bench"] => Some("bench"),
+        _ => return Err(USAGE.into()),
+    };
+    let package = npm::build()?;
+    match script {
+        Some(script) => npm::script(&package, script),
+        None => Ok(()),
+    }
+}
+
+/// Once more with what only this needs: wasm-bindgen takes a while to compile.
+#[cfg(not(feature = "npm"))]
+fn npm(arguments: &[&str]) -> Result<(), String> {
+    let mut again = std::process::Command::new("cargo");
+    again.args(["run", "--release", "-p", "xtask", "--features", "npm", "--", "npm"]);
+    let status = again.args(arguments).current_dir(root()).status();
+    match status {
+        Ok(status) if status.success() => Ok(()),
+        Ok(_) => Err("the npm package isn't built".into()),
+        Err(error) => Err(format!("can't run cargo: {error}")),
     }
 }
 

@@ -33,6 +33,7 @@ pub mod curve;
 pub mod families;
 pub mod four_param;
 pub mod frame;
+pub mod live;
 pub mod measure;
 pub mod numeric;
 pub mod outline;
@@ -46,10 +47,11 @@ pub use families::catalog;
 pub use kurbo;
 
 pub use curve::Curve;
+pub use live::LiveContour;
 pub use outline::{Contour, Join, Knot, Outline};
 pub use plan::InputError;
 pub use segment::{CurvePoint, PolynomialSpiral, Segment, Shape, UnitCurve};
 pub use spline::{
     Adaptation, Effort, Place, Relaxation, Solution, SolveReport, SolvedKnot, Spline, Stage,
-    Status, solve, solve_with,
+    Status, solve, solve_near, solve_with,
 };

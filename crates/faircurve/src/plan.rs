@@ -235,6 +235,26 @@ struct RunPlace {
     reversed: bool,
 }
 
+impl RunPlace {
+    /// Which of `nodes` nodes knot `i` of the run is.
+    fn node_of(&self, run: &Run, i: usize, nodes: usize) -> usize {
+        let along = if self.reversed { run.knots.len() - 1 - i } else { i };
+        (self.first_node + along) % nodes
+    }
+
+    /// The node that segment `i` of the run leaves, in the contour's direction.
+    fn segment_of(&self, run: &Run, i: usize, nodes: usize) -> usize {
+        let count = run.segment_count();
+        let along = match (self.reversed, run.closed) {
+            (false, _) => i,
+            (true, false) => count - 1 - i,
+            // Backwards from the last knot, the closing segment comes last in both.
+            (true, true) => (2 * count - 2 - i) % count,
+        };
+        (self.first_node + along) % nodes
+    }
+}
+
 /// A contour made ready for one spline.
 #[derive(Clone, Debug)]
 pub struct Plan {
@@ -398,6 +418,24 @@ impl Plan {
         RunKnot { join, tangent, curvature, ..self.interior_knot(node) }
     }
 
+    /// The segments of a curve for such a contour, for each run those of its chords in its own
+    /// direction; empty if there are more or fewer than the contour's.
+    pub(crate) fn by_run(&self, segments: &[Segment]) -> Vec<Vec<Segment>> {
+        let expected = if self.closed { self.points.len() } else { self.points.len() - 1 };
+        if segments.len() != expected {
+            return Vec::new();
+        }
+        let of_run = |(place, run): (&RunPlace, &Run)| {
+            let segment = |i: usize| {
+                let segment =
+                    &segments[self.nodes[place.segment_of(run, i, self.nodes.len())].last];
+                if place.reversed { segment.reversed() } else { segment.clone() }
+            };
+            (0..run.segment_count()).map(segment).collect()
+        };
+        self.places.iter().zip(&self.runs).map(of_run).collect()
+    }
+
     /// Puts solved runs back together, in the input's numbering and units.
     ///
     /// # Panics
@@ -408,22 +446,9 @@ impl Plan {
         let mut report = SolveReport { adapted: self.adapted.clone(), ..SolveReport::default() };
         let mut shapes: Vec<Option<Segment>> = vec![None; segments];
         for ((place, run), solution) in self.places.iter().zip(&self.runs).zip(solved) {
-            let (knots, count) = (run.knots.len(), run.segment_count());
-            // Where the run's knots and segments lie among the nodes.
-            let node_of = |i: usize| {
-                let along = if place.reversed { knots - 1 - i } else { i };
-                (place.first_node + along) % n
-            };
-            let segment_of = |i: usize| {
-                let along = match (place.reversed, run.closed) {
-                    (false, _) => i,
-                    (true, false) => count - 1 - i,
-                    // Backwards from the last knot, the closing segment comes last in both.
-                    (true, true) => (2 * count - 2 - i) % count,
-                };
-                (place.first_node + along) % n
-            };
-            for (i, segment) in solution.segments.iter().enumerate().take(count) {
+            let node_of = |i: usize| place.node_of(run, i, n);
+            let segment_of = |i: usize| place.segment_of(run, i, n);
+            for (i, segment) in solution.segments.iter().enumerate().take(run.segment_count()) {
                 let segment = if place.reversed { segment.reversed() } else { segment.clone() };
                 shapes[segment_of(i)] = Some(segment);
             }

@@ -29,6 +29,13 @@ pub trait Spline: fmt::Debug + Send + Sync {
     /// that it takes a search.
     fn solve_plainly(&self, run: &Run) -> Option<RunSolution>;
 
+    /// Solves one run from a curve that is known: `near` has a segment for each chord, drawn for
+    /// knots not far from these. `None` where that doesn't lead to a curve with no more loops, or
+    /// where this spline has but one curve anyway.
+    fn follow(&self, _run: &Run, _near: &[Segment]) -> Option<RunSolution> {
+        None
+    }
+
     /// Solves one run, searching as far as `effort` allows. Never fails: where something can't be
     /// met the curve is relaxed and the result says so.
     fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution;
@@ -268,12 +275,48 @@ pub fn solve_with(
     effort: Effort,
 ) -> Result<Solution, InputError> {
     let plan = Plan::new(contour, spline)?;
-    let plain: Vec<_> = plan.runs().iter().map(|run| (run, spline.solve_plainly(run))).collect();
+    Ok(solve_planned(&plan, spline, effort, |_, run| spline.solve_plainly(run)))
+}
+
+/// Finds a curve near one that is known, for a contour that is being changed by hand: it stays on
+/// its branch where [`solve`] would change to another, and it takes fewer steps.
+///
+/// `near` has a segment for each of the contour's, drawn for knots not far from these; what is no
+/// such list is ignored. Runs that don't settle from there are solved as [`solve_with`] does. The
+/// result depends on `near`: of several curves that a contour may have, `solve` gives the canonical
+/// one. See [`LiveContour`](crate::live::LiveContour), which keeps `near` in step with the edits.
+///
+/// # Errors
+/// As for [`solve`].
+pub fn solve_near(
+    contour: &Contour,
+    spline: &dyn Spline,
+    effort: Effort,
+    near: &[Segment],
+) -> Result<Solution, InputError> {
+    let plan = Plan::new(contour, spline)?;
+    let known = plan.by_run(near);
+    Ok(solve_planned(&plan, spline, effort, |index, run| {
+        let followed = known.get(index).and_then(|near| spline.follow(run, near));
+        followed.or_else(|| spline.solve_plainly(run))
+    }))
+}
+
+/// Solves every run the quick way, then those for which that isn't enough with their share of the
+/// effort.
+fn solve_planned(
+    plan: &Plan,
+    spline: &dyn Spline,
+    effort: Effort,
+    quickly: impl Fn(usize, &Run) -> Option<RunSolution>,
+) -> Solution {
+    let plain: Vec<_> =
+        plan.runs().iter().enumerate().map(|(i, run)| (run, quickly(i, run))).collect();
     let hard = plain.iter().filter(|(_, solved)| solved.is_none());
     let effort = effort.shared(hard.map(|(run, _)| run.knots.len()));
     let solved = plain
         .into_iter()
         .map(|(run, solved)| solved.unwrap_or_else(|| spline.solve_run(run, effort)))
         .collect();
-    Ok(plan.assemble(solved))
+    plan.assemble(solved)
 }

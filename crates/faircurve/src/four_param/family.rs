@@ -47,6 +47,12 @@ pub trait FourParamFamily {
     /// The segment from `start` to `end` with these parameters.
     fn shape(&self, start: Point, end: Point, parameters: [f64; 4]) -> Segment;
 
+    /// The parameters of a segment that [`shape`](Self::shape) made, to start from; `None` for other
+    /// segments.
+    fn parameters(&self, _segment: &Segment) -> Option<[f64; 4]> {
+        None
+    }
+
     /// The largest change of direction, in radians, that a change of parameters makes anywhere on
     /// the segment (an upper bound), by which steps are limited.
     fn bend(&self, change: [f64; 4]) -> f64;

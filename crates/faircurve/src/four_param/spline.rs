@@ -9,6 +9,7 @@ use crate::frame::{circle_tangent, direction, wrap_angle};
 use crate::numeric::block_tridiagonal::BlockTridiagonal;
 use crate::outline::Join;
 use crate::plan::Run;
+use crate::segment::Segment;
 use crate::spline::{Effort, Relaxation, RunSolution, Stage};
 use crate::tolerance::SOLVED;
 
@@ -32,6 +33,22 @@ pub(super) struct Solved {
 }
 
 impl Solved {
+    /// What a system has come to.
+    fn of<F: FourParamFamily>(
+        mut system: RunSystem<'_, F>,
+        iterations: usize,
+        stage: Stage,
+    ) -> Solved {
+        system.clean();
+        Solved {
+            residuals: (0..system.knots.len()).map(|i| system.knot_residual(i)).collect(),
+            loops: system.loops().count(),
+            parameters: system.parameters,
+            iterations,
+            stage,
+        }
+    }
+
     pub(super) fn residual(&self) -> f64 {
         self.residuals.iter().fold(
             0.0,
@@ -72,6 +89,21 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
         solved.is_good().then(|| self.place(run, solved, Vec::new()))
     }
 
+    /// Solves one run from segments that are known, in their windings, if plain Newton iteration
+    /// does without more loops.
+    pub fn follow(&self, run: &Run, near: &[Segment]) -> Option<RunSolution> {
+        let mut system = RunSystem::new(&self.family, run);
+        let known: Option<Vec<_>> = near.iter().map(|s| self.family.parameters(s)).collect();
+        system.parameters = known.filter(|known| known.len() == run.segment_count())?;
+        system.evaluate();
+        let loops = system.loops().count();
+        system.unwind();
+        let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
+        let outcome = strategy::settle(&mut system, &mut matrix);
+        let solved = Solved::of(system, outcome.iterations, Stage::Plain);
+        (solved.is_solved() && solved.loops <= loops).then(|| self.place(run, solved, Vec::new()))
+    }
+
     /// Solves one run: as asked if possible, else relaxed at the knots where it isn't.
     pub fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution {
         /// Share of the effort that is kept for relaxing.
@@ -99,14 +131,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
         } else {
             strategy::search(&mut system, &mut matrix, plain, budget)
         };
-        system.clean();
-        Solved {
-            residuals: (0..run.knots.len()).map(|i| system.knot_residual(i)).collect(),
-            loops: system.loops().count(),
-            parameters: system.parameters,
-            iterations: outcome.iterations,
-            stage,
-        }
+        Solved::of(system, outcome.iterations, stage)
     }
 
     /// Segments between the tangents that are given, or those of the circle through each knot and

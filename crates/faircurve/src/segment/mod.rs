@@ -11,7 +11,7 @@ use std::sync::Arc;
 use kurbo::{Affine, ParamCurve, PathSeg, Point, Rect, Shape as _, Vec2};
 use num_complex::Complex64;
 
-use crate::frame::{direction, turning, wrap_angle};
+use crate::frame::{ChordAngles, direction, turning, wrap_angle};
 use crate::numeric::roots::{monotone_root, roots_between};
 use crate::numeric::spiro_integral::{angle, curvature_jet, spiro_integral_between, wildness};
 
@@ -213,6 +213,17 @@ impl Segment {
     /// Its shape.
     pub fn shape(&self) -> &Shape {
         &self.shape
+    }
+
+    /// Directions at both ends relative to the chord, each within half a turn of it; 0 where there is
+    /// no chord.
+    pub fn chord_angles(&self) -> ChordAngles {
+        let chord = self.end - self.start;
+        if chord == Vec2::ZERO {
+            return ChordAngles::default();
+        }
+        let (start, end) = (self.direction(0.0), self.direction(self.length));
+        ChordAngles::from_directions(start, direction(chord), end)
     }
 
     /// k₀ … k₃ of eq. 8.1 for a polynomial spiral, zeros for a line; `None` for other shapes.

@@ -42,6 +42,10 @@ impl<M: CurvatureMap> TangentRule for Continuity<M> {
         self.tangents_from(run, None)
     }
 
+    fn tangents_near(&self, run: &Run, near: &[ChordAngles]) -> Tangents {
+        self.tangents_from(run, Some(near))
+    }
+
     /// Shifted Newton steps from the same start (`TangentSystem::approach`), on rounded numbers, so
     /// that copies which are moved, turned or scaled take the same course; the last word is Newton's,
     /// on the exact ones. Where that fails, knots are given up one after the other: they keep the
@@ -89,7 +93,7 @@ impl<M: CurvatureMap> TangentRule for Continuity<M> {
 
 impl<M: CurvatureMap> Continuity<M> {
     /// The tangents found from those of another map for the same run, or from circles.
-    pub fn tangents_from(&self, run: &Run, start: Option<&Tangents>) -> Tangents {
+    pub fn tangents_from(&self, run: &Run, start: Option<&[ChordAngles]>) -> Tangents {
         let mut system = TangentSystem::new(self, run);
         if let Some(start) = start {
             system.start_from(start);
@@ -304,13 +308,13 @@ impl<'a, M: CurvatureMap> TangentSystem<'a, M> {
     }
 
     /// Tangents that are known roughly.
-    fn start_from(&mut self, known: &Tangents) {
+    fn start_from(&mut self, known: &[ChordAngles]) {
         let n = self.tangents.len();
-        for (tangent, ends) in self.tangents.iter_mut().zip(&known.ends) {
-            *tangent = ends.angles.theta0;
+        for (tangent, angles) in self.tangents.iter_mut().zip(known) {
+            *tangent = angles.theta0;
         }
-        if let (false, Some(last)) = (self.closed, known.ends.last()) {
-            self.tangents[n - 1] = last.angles.theta1;
+        if let (false, Some(last)) = (self.closed, known.last()) {
+            self.tangents[n - 1] = last.theta1;
         }
         for i in 0..n {
             self.keep_in_range(i);

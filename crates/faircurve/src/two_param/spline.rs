@@ -3,7 +3,7 @@
 use super::shape::{SegmentShape, StandIn};
 use super::tangents::{TangentRule, Tangents};
 use crate::catalog::SplineInfo;
-use crate::frame::wrap_angle;
+use crate::frame::{ChordAngles, wrap_angle};
 use crate::outline::Join;
 use crate::plan::Run;
 use crate::segment::Segment;
@@ -175,6 +175,12 @@ impl<R: TangentRule, S: SegmentShape> Spline for TwoParamSpline<R, S> {
 
     fn solve_plainly(&self, run: &Run) -> Option<RunSolution> {
         let solved = self.draw(run, self.rule.tangents(run));
+        solved.relaxed.is_empty().then_some(solved)
+    }
+
+    fn follow(&self, run: &Run, near: &[Segment]) -> Option<RunSolution> {
+        let angles: Vec<ChordAngles> = near.iter().map(Segment::chord_angles).collect();
+        let solved = self.draw(run, self.rule.tangents_near(run, &angles));
         solved.relaxed.is_empty().then_some(solved)
     }
 

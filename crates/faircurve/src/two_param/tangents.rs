@@ -13,6 +13,12 @@ pub trait TangentRule: fmt::Debug + Send + Sync {
     /// The tangents found the straight way.
     fn tangents(&self, run: &Run) -> Tangents;
 
+    /// The tangents found the straight way from those that are known, one pair a segment; for rules
+    /// that have but one answer, the answer.
+    fn tangents_near(&self, run: &Run, _near: &[ChordAngles]) -> Tangents {
+        self.tangents(run)
+    }
+
     /// The tangents found by a search, where the straight way leaves equations unmet.
     fn search(&self, run: &Run, _effort: Effort) -> Tangents {
         self.tangents(run)
@@ -57,6 +63,11 @@ impl Tangents {
         let adapted =
             (0..n).filter(|&i| run.knots[i].curvature.is_some()).map(ignored_curvature).collect();
         Tangents { ends, mismatch: vec![0.0; n], adapted, ..Tangents::default() }
+    }
+
+    /// The tangents alone.
+    pub fn angles(&self) -> Vec<ChordAngles> {
+        self.ends.iter().map(|ends| ends.angles).collect()
     }
 
     /// The largest mismatch.

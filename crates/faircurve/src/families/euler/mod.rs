@@ -107,8 +107,22 @@ impl Spline for Euler {
     }
 
     fn solve_plainly(&self, run: &Run) -> Option<RunSolution> {
-        let loops = |segment: &Segment| segment.length() > LOOP * segment.chord_length();
-        self.spline.solve_plainly(run).filter(|solved| !solved.segments.iter().any(loops))
+        self.spline.solve_plainly(run).filter(|solved| !has_loops(solved))
+    }
+
+    /// Where no segment winds further than tangents tell, on this rung; else on that of the polynomial
+    /// spirals.
+    fn follow(&self, run: &Run, near: &[Segment]) -> Option<RunSolution> {
+        let winds = |segment: &Segment| {
+            let turning = segment.direction(segment.length()) - segment.direction(0.0);
+            (segment.chord_angles().turning() - turning).abs() > PI
+        };
+        if !near.iter().any(winds) {
+            return self.spline.follow(run, near).filter(|solved| !has_loops(solved));
+        }
+        let wider = ConstraintSpline::new(PolynomialSpirals).follow(&self.as_g2(run), near)?;
+        let adapted = self.spline.solve_run(run, Effort::NONE).adapted;
+        Some(RunSolution { adapted, ..wider })
     }
 
     /// Tangents alone can't leave the principal square of chord angles; the wider search over
@@ -122,6 +136,10 @@ impl Spline for Euler {
             ..wider
         }
     }
+}
+
+fn has_loops(solved: &RunSolution) -> bool {
+    solved.segments.iter().any(|segment| segment.length() > LOOP * segment.chord_length())
 }
 
 /// The family: cut from the one Euler spiral.

@@ -131,6 +131,11 @@ impl Spline for GeneratedSpline {
         solved.filter(|solved| solved.segments.iter().all(|segment| self.has_cut(segment)))
     }
 
+    fn follow(&self, run: &Run, near: &[Segment]) -> Option<RunSolution> {
+        let solved = self.spline.follow(run, near);
+        solved.filter(|solved| solved.segments.iter().all(|segment| self.has_cut(segment)))
+    }
+
     fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution {
         let mut solved = self.spline.solve_run(run, effort);
         for (i, segment) in solved.segments.iter().enumerate() {
@@ -163,6 +168,11 @@ impl TangentRule for ByWayOfEuler {
         Continuity { map: Cuts { curve: self.curve.clone() }, end: self.end }.tangents(run)
     }
 
+    fn tangents_near(&self, run: &Run, near: &[ChordAngles]) -> Tangents {
+        let map = Cuts { curve: self.curve.clone() };
+        Continuity { map, end: self.end }.tangents_near(run, near)
+    }
+
     fn search(&self, run: &Run, effort: Effort) -> Tangents {
         let direct = self.tangents(run);
         if direct.residual() <= SOLVED {
@@ -172,10 +182,11 @@ impl TangentRule for ByWayOfEuler {
         let mut tangents = Continuity { map: EulerSpirals, end: self.end }.tangents(run);
         for part in [0.25, 0.5, 0.75, 0.9] {
             let map = Blend { own: own.clone(), part };
-            tangents = Continuity { map, end: self.end }.tangents_from(run, Some(&tangents));
+            tangents =
+                Continuity { map, end: self.end }.tangents_from(run, Some(&tangents.angles()));
         }
         let rule = Continuity { map: own, end: self.end };
-        let found = rule.tangents_from(run, Some(&tangents));
+        let found = rule.tangents_from(run, Some(&tangents.angles()));
         if found.residual() <= SOLVED { found } else { rule.search(run, effort) }
     }
 }

@@ -8,6 +8,7 @@ pub use curve::{LogAesthetic, LogAestheticCut};
 use super::catalog::{Claim, ParamKind, ParamSpec, SplineInfo};
 use super::ends;
 use super::shapes::{self, SHAPE};
+use crate::frame::ChordAngles;
 use crate::outline::Join;
 use crate::plan::Run;
 use crate::spline::Effort;
@@ -80,6 +81,10 @@ impl TangentRule for AlongAlpha {
         self.continuity(self.curve.alpha()).tangents(run)
     }
 
+    fn tangents_near(&self, run: &Run, near: &[ChordAngles]) -> Tangents {
+        self.continuity(self.curve.alpha()).tangents_near(run, near)
+    }
+
     fn search(&self, run: &Run, effort: Effort) -> Tangents {
         /// How much log α may change in one step.
         const STRIDE: f64 = 0.2;
@@ -90,7 +95,7 @@ impl TangentRule for AlongAlpha {
         while i < steps {
             i += 1.0;
             let alpha = if i == steps { self.curve.alpha() } else { (wanted * i / steps).exp() };
-            tangents = self.continuity(alpha).tangents_from(run, Some(&tangents));
+            tangents = self.continuity(alpha).tangents_from(run, Some(&tangents.angles()));
         }
         if tangents.residual() <= SOLVED {
             return tangents;

@@ -60,6 +60,10 @@ impl Spline for Spiro {
         ConstraintSpline::new(PolynomialSpirals).solve_plainly(run)
     }
 
+    fn follow(&self, run: &Run, near: &[Segment]) -> Option<RunSolution> {
+        ConstraintSpline::new(PolynomialSpirals).follow(run, near)
+    }
+
     fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution {
         ConstraintSpline::new(PolynomialSpirals).solve_run(run, effort)
     }
@@ -88,6 +92,10 @@ impl FourParamFamily for PolynomialSpirals {
 
     fn shape(&self, start: Point, end: Point, k: [f64; 4]) -> Segment {
         Segment::spiral(start, end, PolynomialSpiral::new(k))
+    }
+
+    fn parameters(&self, segment: &Segment) -> Option<[f64; 4]> {
+        segment.kappa()
     }
 
     fn bend(&self, change: [f64; 4]) -> f64 {

@@ -94,6 +94,14 @@ pub(in crate::four_param) fn solve_plainly<F: FourParamFamily>(
     }
 }
 
+/// Newton's method from a state that is nearly the solution.
+pub(in crate::four_param) fn settle<F: FourParamFamily>(
+    system: &mut RunSystem<'_, F>,
+    matrix: &mut BlockTridiagonal<2>,
+) -> Outcome {
+    newton(system, matrix, PLAIN)
+}
+
 /// Stages 2 to 4, from the state that [`solve_plainly`] left. Ends in the best state found.
 pub(in crate::four_param) fn search<F: FourParamFamily>(
     system: &mut RunSystem<'_, F>,

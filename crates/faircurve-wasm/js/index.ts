@@ -1,0 +1,133 @@
+/**
+ * Fair curves through points.
+ *
+ * ```js
+ * import { solve } from "faircurve";
+ * const { contours } = solve({ contours: [{ closed: true, knots: [{ x: 0, y: 0 }, { x: 9, y: 0 }, { x: 5, y: 7 }] }] });
+ * console.log(contours[0].toSVG());
+ * ```
+ * @module
+ */
+import { Curve } from "./curve.js";
+import { checked, FaircurveError } from "./error.js";
+import type { Contour, Document, Glyph, Join } from "./document.js";
+import { knotRows, splineOf, wrongType } from "./knots.js";
+import { wasm } from "./solver.js";
+
+export { Beziers, Conversion, type BezierOptions, type PathContext } from "./beziers.js";
+export {
+  Curve,
+  type Adaptation,
+  type CurvePoint,
+  type Jump,
+  type Measures,
+  type Relaxation,
+  type SolvedKnot,
+  type SolvedSegment,
+} from "./curve.js";
+export type { Contour, Document, Glyph, Join, Knot, Params, SplineChoice, Vector } from "./document.js";
+export { FaircurveError, type Location } from "./error.js";
+export { LiveContour, Snapshot } from "./live.js";
+
+/** How to solve. */
+export interface SolveOptions {
+  /** How far to search for hard contours before relaxing, times the default; 1 is at most about 50 ms a contour. */
+  effort?: number;
+}
+
+/** A solved glyph. */
+export interface SolvedGlyph {
+  /** Empty for an unnamed one. */
+  name: string;
+  /** Empty where there are no layers. */
+  layer: string;
+  /** The curves, in the order of the contours. */
+  contours: Curve[];
+}
+
+/** A solved document. */
+export interface Solution {
+  glyphs: SolvedGlyph[];
+  /** The curves of all glyphs, in order. */
+  contours: Curve[];
+}
+
+/**
+ * Finds the curve of every contour: a function of the document alone.
+ *
+ * Throws a {@link FaircurveError} where something has no meaning. What can't be solved as asked is no error: the
+ * curve's `status` is `relaxed` and it says what and why.
+ */
+export function solve(document: Document, options: SolveOptions = {}): Solution {
+  if (typeof document !== "object" || document === null) throw wrongType("the document", "an object", document);
+  const { faircurve, glyphs, contours, effort = 1 } = { ...options, ...document };
+  if (faircurve !== undefined && faircurve !== 1) {
+    throw new FaircurveError(`version ${String(faircurve)} is unknown`, "this program reads version 1");
+  }
+  if (glyphs !== undefined && contours !== undefined) {
+    throw new FaircurveError("the document has both `glyphs` and `contours`", "move these contours into a glyph");
+  }
+  const all = glyphs ?? (contours && [{ contours }]);
+  if (all === undefined) {
+    throw new FaircurveError("the document has neither `glyphs` nor `contours`", 'add `"contours": […]`');
+  }
+  const solved = all.map((glyph, index) => solveGlyph(glyph, glyphs ? glyphPlace(glyph, index) : "", document, effort));
+  return { glyphs: solved, contours: solved.flatMap((glyph) => glyph.contours) };
+}
+
+function glyphPlace(glyph: Glyph, index: number): string {
+  return glyph.name ? `glyph \`${glyph.name}\`, ` : `glyph ${index}, `;
+}
+
+function solveGlyph(glyph: Glyph, place: string, document: Document, effort: number): SolvedGlyph {
+  const contours = glyph.contours.map((contour, index) =>
+    solveContour(contour, `${place}contour ${index}, `, document, effort),
+  );
+  return { name: glyph.name ?? "", layer: glyph.layer ?? "", contours };
+}
+
+function solveContour(contour: Contour, place: string, document: Document, effort: number): Curve {
+  if (!Array.isArray(contour?.knots)) throw wrongType(`${place}\`knots\``, "a list", contour?.knots);
+  return checked(() => {
+    const { name, built } = splineOf(contour, document);
+    const closed = contour.closed ?? false;
+    return new Curve(wasm.solve(built, knotRows(contour.knots, place), closed, effort), name, closed);
+  });
+}
+
+/** A parameter that a spline takes. */
+export type ParamSpec = {
+  name: string;
+  /** One line. */
+  summary: string;
+} & (
+  | { kind: "number"; default: number; min: number; max: number }
+  | { kind: "choice"; default: string; options: string[] }
+  | { kind: "text"; default: string }
+);
+
+/** A spline of the catalogue. */
+export interface SplineInfo {
+  name: string;
+  /** One line. */
+  summary: string;
+  /** Where it is defined. */
+  source: string;
+  params: ParamSpec[];
+  /** The join of a knot that names none. */
+  default_join: Join;
+  /** The joins that it has; others are adapted. */
+  joins: Join[];
+  /** What holds at free ends, the default first. */
+  ends: string[];
+  /** The properties that it claims. */
+  claims: string[];
+  /** The order of geometric continuity that it claims; 0 where it claims none. */
+  continuity: number;
+}
+
+/** Every spline with its parameters, in the order in which lists show them. */
+export const catalogue: readonly SplineInfo[] = wasm.catalogue() as SplineInfo[];
+
+/** The names of the joins. */
+export const joins: readonly Join[] = wasm.joins() as Join[];

@@ -1,0 +1,118 @@
+// Knots as rows of numbers, for the solver.
+import { FaircurveError } from "./error.js";
+import type { Knot, SplineChoice } from "./document.js";
+import { wasm } from "./solver.js";
+
+const JOINS = wasm.joins() as string[];
+const KEYS = [
+  "x", "y", "join", "tangent", "tangent_in", "tangent_out",
+  "curvature_in", "curvature_out", "tension_in", "tension_out", "curl",
+];
+/** Numbers in a row. */
+const ROW = 12;
+
+/** The name of the join of that number. */
+export function joinName(code: number): string {
+  return JOINS[code] ?? "corner";
+}
+
+/** The rows of all knots. `place` starts messages: `contour 2, `. */
+export function knotRows(knots: readonly Knot[], place = ""): Float64Array {
+  const rows = new Float64Array(ROW * knots.length);
+  knots.forEach((knot, index) => writeRow(rows, ROW * index, knot, `${place}knot ${index}: `));
+  return rows;
+}
+
+/** The row of one knot. */
+export function knotRow(knot: Knot): Float64Array {
+  const row = new Float64Array(ROW);
+  writeRow(row, 0, knot, "");
+  return row;
+}
+
+function writeRow(rows: Float64Array, at: number, knot: Knot, place: string): void {
+  if (typeof knot !== "object" || knot === null) throw wrongType(`${place}a knot`, "an object", knot);
+  for (const key in knot) {
+    if (!KEYS.includes(key)) {
+      throw new FaircurveError(`${place}there is no key \`${key}\` here`, wasm.suggest(key, KEYS));
+    }
+  }
+  for (const key of ["x", "y"] as const) {
+    if (knot[key] === undefined) throw new FaircurveError(`${place}the key \`${key}\` is missing`);
+  }
+  rows[at] = number(knot.x, place, "x");
+  rows[at + 1] = number(knot.y, place, "y");
+  rows[at + 2] = knot.join === undefined ? NaN : joinCode(knot.join, place);
+  if (knot.tangent !== undefined && (knot.tangent_in ?? knot.tangent_out) !== undefined) {
+    throw new FaircurveError(
+      `${place}\`tangent\` gives both sides, so no other may be given`,
+      "give `tangent`, or `tangent_in` and `tangent_out`",
+    );
+  }
+  vector(rows, at + 3, knot.tangent ?? knot.tangent_in, place, "tangent_in");
+  vector(rows, at + 5, knot.tangent ?? knot.tangent_out, place, "tangent_out");
+  for (let i = 6; i < KEYS.length; i++) {
+    const key = KEYS[i] as "curl";
+    rows[at + 1 + i] = knot[key] === undefined ? NaN : number(knot[key], place, key);
+  }
+}
+
+function joinCode(join: unknown, place: string): number {
+  if (typeof join !== "string") throw wrongType(`${place}\`join\``, "a string", join);
+  const code = JOINS.indexOf(join);
+  if (code < 0) throw new FaircurveError(`${place}there is no join \`${join}\``, wasm.suggest(join, JOINS));
+  return code;
+}
+
+function vector(rows: Float64Array, at: number, value: unknown, place: string, key: string): void {
+  if (value === undefined) {
+    rows[at] = rows[at + 1] = NaN;
+    return;
+  }
+  if (!Array.isArray(value) || value.length !== 2) {
+    throw wrongType(`${place}\`${key}\``, "a vector such as [1, 0]", value);
+  }
+  rows[at] = number(value[0], place, key);
+  rows[at + 1] = number(value[1], place, key);
+}
+
+/** A number as it is; NaN, which would stand for nothing, as the infinity that is refused in its place. */
+function number(value: unknown, place: string, key: string): number {
+  if (typeof value !== "number") throw wrongType(`${place}\`${key}\``, "a number", value);
+  return Number.isNaN(value) ? Infinity : value;
+}
+
+export function wrongType(what: string, expected: string, got: unknown): FaircurveError {
+  const kind =
+    got === null ? "null" : Array.isArray(got) ? "a list" : typeof got === "object" ? "an object" : `a ${typeof got}`;
+  return new FaircurveError(`${what} must be ${expected}, not ${kind}`);
+}
+
+const built = new Map<string, wasm.Built>();
+
+/** The spline of a choice, built once for each. */
+export function splineOf(choice: SplineChoice, otherwise: SplineChoice = {}): { name: string; built: wasm.Built } {
+  const name = choice.spline ?? otherwise.spline ?? "spiro";
+  const params = choice.params ?? (choice.spline === undefined ? otherwise.params : undefined) ?? {};
+  if (typeof name !== "string") throw wrongType("`spline`", "a string", name);
+  if (typeof params !== "object") throw wrongType("`params`", "an object", params);
+  const key = JSON.stringify([name, params]);
+  let spline = built.get(key);
+  if (spline === undefined) {
+    const wanted = new wasm.Choice();
+    for (const [param, value] of Object.entries(params)) {
+      if (typeof value === "number") wanted.number(param, value);
+      else if (typeof value === "string") wanted.text(param, value);
+      else throw wrongType(`parameter \`${param}\``, "a number or a string", value);
+    }
+    spline = wanted.build(name);
+    // A slider makes many; the oldest is forgotten.
+    if (built.size >= 256) {
+      const [oldest] = built.keys();
+      built.get(oldest!)!.free();
+      built.delete(oldest!);
+    }
+    built.set(key, spline);
+  }
+  return { name, built: spline };
+}

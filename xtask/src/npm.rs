@@ -1,0 +1,119 @@
+//! The npm package, built into target/npm.
+//!
+//! Needs the target wasm32-unknown-unknown, and Node with npm. `RUSTC`, `WASM_CARGO_FLAGS` and the
+//! like reach cargo, for toolchains that have the target in another way.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use wasm_bindgen_cli_support::Bindgen;
+
+use crate::{at, root};
+
+const TARGET: &str = "wasm32-unknown-unknown";
+
+/// The modules: name, which is that of the crate's feature, too, and optimisation level. The solver
+/// is hot.
+const MODULES: [(&str, &str); 2] = [("solver", "s"), ("formats", "z")];
+
+/// Builds the package; its folder.
+pub(crate) fn build() -> Result<PathBuf, String> {
+    let source = source();
+    let package = target_folder().join("npm");
+    for folder in [&package, &source.join("js/wasm")] {
+        match fs::remove_dir_all(folder) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                return Err(at(folder, &error));
+            }
+            _ => {}
+        }
+        fs::create_dir_all(folder).map_err(|error| at(folder, &error))?;
+    }
+    run(Command::new("npm").current_dir(&source).args(["ci", "--no-audit", "--no-fund"]))?;
+    for (name, level) in MODULES {
+        module(name, level)?;
+    }
+    run(npx("tsc").arg("--outDir").arg(&package))?;
+    let wasm = package.join("wasm");
+    fs::create_dir_all(&wasm).map_err(|error| at(&wasm, &error))?;
+    for (name, _) in MODULES {
+        for file in [format!("{name}.js"), format!("{name}.d.ts"), format!("{name}_bg.wasm")] {
+            copy(&source.join("js/wasm").join(&file), &wasm.join(&file))?;
+        }
+    }
+    copy(&source.join("js/package.json"), &package.join("package.json"))?;
+    copy(&source.join("README.md"), &package.join("README.md"))?;
+    for file in ["LICENSE-APACHE", "LICENSE-MIT"] {
+        copy(&root().join(file), &package.join(file))?;
+    }
+    println!("built {}", package.display());
+    Ok(package)
+}
+
+fn source() -> PathBuf {
+    root().join("crates/faircurve-wasm")
+}
+
+/// Runs one of the package's npm scripts on the package as npm packs it.
+pub(crate) fn script(package: &Path, script: &str) -> Result<(), String> {
+    let mut command = Command::new("npm");
+    command.current_dir(source()).args(["run", "--silent", script]);
+    run(command.env("FAIRCURVE_PACKAGE", package))
+}
+
+/// One module: compiled, bound, optimised.
+fn module(name: &str, level: &str) -> Result<(), String> {
+    let flags = std::env::var("WASM_CARGO_FLAGS").unwrap_or_default();
+    let mut cargo = Command::new("cargo");
+    cargo
+        .current_dir(root())
+        .args(["build", "--profile", "wasm", "--target", TARGET, "-p", "faircurve-wasm"])
+        .args(["--no-default-features", "--features", name])
+        .args(flags.split_whitespace())
+        .env("CARGO_PROFILE_WASM_OPT_LEVEL", level);
+    run(&mut cargo)?;
+    let built = target_folder().join(TARGET).join("wasm/faircurve_wasm.wasm");
+    let mut bindgen = Bindgen::new();
+    bindgen.input_path(&built).out_name(name).typescript(true);
+    bindgen.web(true).map_err(|error| error.to_string())?;
+    bindgen.omit_default_module_path(true).remove_name_section(true).remove_producers_section(true);
+    let folder = source().join("js/wasm");
+    bindgen.generate(&folder).map_err(|error| format!("wasm-bindgen: {error:#}"))?;
+    let file = folder.join(format!("{name}_bg.wasm"));
+    run(npx("wasm-opt").arg(&file).args(["-Oz", "--all-features", "-o"]).arg(&file))
+}
+
+/// A program of the package's npm dependencies.
+fn npx(program: &str) -> Command {
+    let mut command = Command::new("npx");
+    command.current_dir(source()).arg(program);
+    command
+}
+
+fn run(command: &mut Command) -> Result<(), String> {
+    let name = command.get_program().to_string_lossy().into_owned();
+    let status = command.status().map_err(|error| match name.as_str() {
+        "npm" | "npx" => {
+            format!("can't run {name}: {error}\nhint: install Node, https://nodejs.org")
+        }
+        _ => format!("can't run {name}: {error}"),
+    })?;
+    if status.success() {
+        return Ok(());
+    }
+    let arguments: Vec<_> = command.get_args().map(|a| a.to_string_lossy()).collect();
+    let hint = match name.as_str() {
+        "cargo" => "\nhint: if the target is missing, `rustup target add wasm32-unknown-unknown`",
+        _ => "",
+    };
+    Err(format!("`{name} {}` failed{hint}", arguments.join(" ")))
+}
+
+fn copy(from: &Path, to: &Path) -> Result<(), String> {
+    fs::copy(from, to).map(drop).map_err(|error| at(from, &error))
+}
+
+fn target_folder() -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
+}
