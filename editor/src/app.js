@@ -17,6 +17,7 @@ import { buildMenus } from "./panels/menus.js";
 import { buildPlot } from "./panels/plot.js";
 import { buildRail } from "./panels/rail.js";
 import { buildStatus } from "./panels/status.js";
+import { buildWelcome } from "./panels/welcome.js";
 import { openTest } from "./panels/test.js";
 import { TOOLS } from "./tools/tools.js";
 import { Pointers } from "./view/pointers.js";
@@ -53,6 +54,7 @@ export class App {
     buildInspector(this);
     buildPlot(this);
     this.compare = buildCompare(this);
+    buildWelcome(this);
     listenToKeys(this);
     this.settings.subscribe(() => this.#applyTheme());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.stage.restyle());
@@ -62,7 +64,6 @@ export class App {
     this.stage.fit();
     await this.keeping.begin();
     this.useTool(this.editor.contours.length === 0 ? "draw" : "select");
-    this.stage.canvas.focus({ preventScroll: true });
   }
 
   /** @param {string} id */
@@ -139,8 +140,7 @@ export class App {
   openExample({ document, comb, plot }) {
     const { layers } = this.settings.values;
     this.settings.set({ layers: { ...layers, comb: comb ?? layers.comb }, plot: plot ?? this.settings.values.plot });
-    this.editor.run("open", { document });
-    this.keeping.name = `${document.glyphs[0].name}.json`;
+    this.keeping.openNew(document, `${document.glyphs[0].name}.json`);
     this.useTool("select");
     this.stage.fit();
   }

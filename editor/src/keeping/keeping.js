@@ -76,8 +76,16 @@ export class Keeping {
     editor.run("open", { document, glyph: document.glyphs[glyph] ? glyph : 0 });
     this.name = name;
     this.#saved = editor.committed.document;
+    this.app.useTool("select");
     stage.fit();
     this.#showName();
+  }
+
+  /** A drawing that is in no file yet. @param {Document} document @param {string} name */
+  openNew(document, name) {
+    this.name = name;
+    this.#version = null;
+    this.app.editor.run("open", { document });
   }
 
   /** @returns {Promise<boolean>} */
@@ -115,9 +123,7 @@ export class Keeping {
   }
 
   startNew() {
-    this.app.editor.run("open", { document: blank() });
-    this.name = "drawing.json";
-    this.#version = null;
+    this.openNew(blank(), "drawing.json");
     this.app.stage.fit();
     this.app.useTool("draw");
     this.app.say("a new drawing; undo brings back the one before");

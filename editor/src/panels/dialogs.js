@@ -17,11 +17,12 @@ import { h } from "./dom.js";
  */
 export function dialog(title, kind, ...children) {
   const close = h("button", { type: "button", class: "close", "aria-label": "Close", onclick: () => element.close() }, "×");
-  const element = h("dialog", { class: kind, "aria-label": title }, h("header", {}, h("h2", {}, title), close), ...children);
+  const element = h("dialog", { class: kind, "aria-label": title, tabindex: -1 }, h("header", {}, h("h2", {}, title), close), ...children);
   element.addEventListener("close", () => element.remove());
   element.addEventListener("click", (event) => event.target === element && element.close());
   document.body.append(element);
   element.showModal();
+  element.focus();
   return element;
 }
 

@@ -164,8 +164,10 @@ function knotPart(app) {
     return /** @type {[number, number]} */ ([rounded(Math.cos(angle), 6), rounded(Math.sin(angle), 6)]);
   };
   const angles = /** @type {const} */ (["tangent_in", "tangent_out"]).map((side) => {
-    const words = side === "tangent_in" ? "arrives at °" : "leaves at °";
-    return { side, ...field(words, { class: "given", placeholder: "" }, (value) => set({ [side]: unit(value) })) };
+    const words = side === "tangent_in" ? "arrives at" : "leaves at";
+    const made = field(words, { "aria-label": `${words}, in degrees` }, (value) => set({ [side]: unit(value) }));
+    made.element.classList.add("wide");
+    return { side, ...made };
   });
   const free = h("button", { type: "button", class: "small", onclick: () => actionOf("free-tangent").run(app) }, "Free the tangent");
   const give = h("button", { type: "button", class: "small", onclick: () => actionOf("tangent").run(app) }, "Give the tangent");
@@ -174,7 +176,7 @@ function knotPart(app) {
     h("thead", {}, h("tr", {}, h("th", { scope: "col" }, ""), h("th", { scope: "col" }, "before"), h("th", { scope: "col" }, "after"), h("th", { scope: "col" }, "jump"))), rows);
   const why = h("p", { class: "why", role: "status" });
   const element = part("Knot", h("div", { class: "pair" }, x.element, y.element), ...joins.elements,
-    h("div", { class: "pair" }, ...angles.map(({ element }) => element)), h("div", { class: "buttons" }, give, free), why, table);
+    ...angles.map(({ element }) => element), h("div", { class: "buttons" }, give, free), why, table);
   return {
     element,
     /** @param {boolean} all */
@@ -197,7 +199,7 @@ function knotPart(app) {
         const given = knot[side];
         const has = side === "tangent_in" ? solved.direction_in : solved.direction_out;
         show(input, given ? String(rounded((Math.atan2(given[1], given[0]) * 180) / Math.PI, 2)) : "");
-        input.placeholder = has === null ? "–" : String(rounded((has * 180) / Math.PI, 2));
+        input.placeholder = has === null ? "–" : `${rounded((has * 180) / Math.PI, 2)}° (free)`;
         input.disabled = has === null;
       }
       const isGiven = knot.tangent_in !== undefined || knot.tangent_out !== undefined || knot.curvature_in !== undefined || knot.curvature_out !== undefined;
@@ -282,7 +284,7 @@ function contourPart(app) {
   const closed = h("input", { type: "checkbox", onchange: () => actionOf("close").run(app) });
   const rows = h("tbody");
   const heading = h("caption", {}, "");
-  const own = h("div", {}, h("label", { class: "field wide" }, h("span", {}, "Spline"), splines), h("label", { class: "tick" }, closed, "closed"));
+  const own = h("div", { class: "params" }, h("label", { class: "field wide" }, h("span", {}, "Spline"), splines), h("label", { class: "tick" }, closed, "closed"));
   const table = h("table", { class: "numbers" }, heading, rows);
   const element = part("Contour", own, table);
   const title = /** @type {HTMLElement} */ (element.querySelector("h2"));

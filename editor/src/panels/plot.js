@@ -8,7 +8,7 @@ import { byId, h, number } from "./dom.js";
 
 /** @typedef {import("../app.js").App} App */
 
-const MARGIN = { left: 64, right: 20, top: 14, bottom: 24 };
+const MARGIN = { left: 64, right: 20, top: 24, bottom: 24 };
 
 /** @param {App} app */
 export function buildPlot(app) {

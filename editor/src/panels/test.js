@@ -9,7 +9,7 @@ import { h, number } from "./dom.js";
 
 const STORE = "faircurve.fairness-test";
 
-/** Where the drawing has no contour of three knots: a wave, as in figure 2.1. */
+/** The knots that are asked about at first: a wave with turns of several sizes. */
 /** @type {import("../core/document.js").Contour} */
 const SAMPLE = { closed: false, knots: [{ x: 0, y: 0 }, { x: 60, y: 120 }, { x: 190, y: 130 }, { x: 240, y: 20 }, { x: 370, y: 10 }, { x: 430, y: 130 }] };
 
@@ -25,11 +25,12 @@ function answers() {
 
 /** @param {App} app */
 export function openTest(app) {
-  const fitting = app.editor.contours.filter(({ knots }) => knots.length >= 3);
-  // Joins say nothing to this spline's family; every knot is smooth, as in the study.
-  const contours = (fitting.length ? fitting : [SAMPLE]).map(({ closed, knots }) => ({ closed, knots: knots.map(({ x, y, join }) => (join === "corner" ? { x, y, join } : { x, y })) }));
+  const own = app.editor.contours.filter(({ knots }) => knots.length >= 3);
+  // Joins other than corners are adapted; every knot is smooth, as in the study.
+  const plain = (/** @type {readonly import("../core/document.js").Contour[]} */ contours) =>
+    contours.map(({ closed, knots }) => ({ closed, knots: knots.map(({ x, y, join }) => (join === "corner" ? { x, y, join } : { x, y })) }));
+  let contours = plain([SAMPLE]);
   const curvesFor = (/** @type {number} */ alpha) => contours.map((contour) => app.store.canonical(contour, { spline: "log-aesthetic", params: { alpha } }));
-  const knots = contours.flatMap((contour) => contour.knots);
   const body = h("div");
   const element = app.dialog("Which is the fairest?", "test", body);
   ask();
@@ -42,9 +43,16 @@ export function openTest(app) {
           localStorage.setItem(STORE, JSON.stringify([...answers(), { alpha, at: new Date().toISOString() }]));
           tell(alpha);
         },
-      }, picture(app, curvesFor(alpha), `variant ${i + 1}`, knots)));
+      }, picture(app, curvesFor(alpha), `variant ${i + 1}`, contours.flatMap(({ knots }) => knots))));
+    const mine = h("button", {
+      type: "button", class: "small", hidden: own.length === 0,
+      onclick() {
+        contours = plain(own);
+        ask();
+      },
+    }, "On the drawing's knots");
     body.replaceChildren(h("p", {}, "All pass through the same knots. Pick the one that looks smoothest to you; there is no right answer."),
-      h("div", { class: "cells" }, ...choices), h("div", { class: "buttons" }, h("button", { type: "button", class: "small", onclick: () => tell(null) }, "Show the answers so far")));
+      h("div", { class: "cells" }, ...choices), h("div", { class: "buttons" }, mine, h("button", { type: "button", class: "small", onclick: () => tell(null) }, "Show the answers so far")));
   }
 
   /** @param {number | null} picked */
@@ -89,6 +97,6 @@ function chart(energies) {
     class: "chart",
     html: `<svg viewBox="0 0 ${width} ${height}" role="img" aria-label="${label}"><line class="base" x1="${left}" x2="${width - left}" y1="${base}" y2="${base}"/>${bars.join("")}
       <polyline class="energy" points="${points.join(" ")}"/>${points.map((p) => `<circle class="dot" cx="${p.split(",")[0]}" cy="${p.split(",")[1]}" r="3"/>`).join("")}
-      <text class="end" x="${width - left + 4}" y="${Number(points[points.length - 1].split(",")[1]) + 4}">×${number(energies[energies.length - 1] / least, 3)}</text><text x="${width / 2}" y="${height - 2}">exponent α</text></svg>`,
+      <text class="end" x="${width - left + 4}" y="${Number(points[points.length - 1].split(",")[1]) + 4}">×${number(energies[energies.length - 1] / least, 4)}</text><text x="${width / 2}" y="${height - 2}">exponent α</text></svg>`,
   });
 }
