@@ -8,9 +8,13 @@
 //! cargo xtask npm                 # build the npm package into target/npm
 //! cargo xtask npm --test          # and test it as npm packs it, in Node and in a browser
 //! cargo xtask npm --bench         # and measure it: sizes, times beside others, a drag
+//! cargo xtask editor              # build the npm package and the editor's site, and serve it
+//! cargo xtask editor --test       # and test it in Node and in a browser instead
+//! cargo xtask editor --build      # only build it, into target/editor
 //! ```
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "this is a program")]
 
+mod editor;
 mod family;
 #[cfg(feature = "npm")]
 mod npm;
@@ -29,6 +33,7 @@ fn main() -> ExitCode {
         ["pictures", "--png", folder] => pictures::draw_png(Path::new(folder)),
         ["speeds"] => speeds::write(),
         ["npm", rest @ ..] => npm(rest),
+        ["editor", rest @ ..] => editor::run(rest),
         _ => Err(USAGE.into()),
     };
     match done {
@@ -41,7 +46,7 @@ fn main() -> ExitCode {
 }
 
 const USAGE: &str = "usage: cargo xtask pictures [--check | --png DIR], cargo xtask speeds, \
-                     or cargo xtask npm [--test | --bench]";
+                     cargo xtask npm [--test | --bench], or cargo xtask editor [--build | --test]";
 
 #[cfg(feature = "npm")]
 fn npm(arguments: &[&str]) -> Result<(), String> {

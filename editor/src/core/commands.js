@@ -84,6 +84,27 @@ function mapped(knot, map) {
   });
 }
 
+/**
+ * A knot whose sides agree where its join says so: after one side has changed, the other follows.
+ * @param {Knot} knot
+ * @param {Partial<Knot>} changed
+ * @returns {Knot}
+ */
+function agreeing(knot, changed) {
+  const { oneDirection, oneCurvature } = joinInfo(knot.join ?? "g4");
+  /** @type {any} */
+  const agreed = { ...knot };
+  const agree = (/** @type {"tangent" | "curvature"} */ what) => {
+    const [before, after] = /** @type {const} */ ([`${what}_in`, `${what}_out`]);
+    if (agreed[before] === undefined || agreed[after] === undefined) return;
+    const leads = before in changed && !(after in changed) ? before : after;
+    agreed[before] = agreed[after] = agreed[leads];
+  };
+  if (oneDirection) agree("tangent");
+  if (oneCurvature) agree("curvature");
+  return defined(agreed);
+}
+
 /** Whether a map can be undone; another would lay knots on one another. @param {Affine} map */
 const isRegular = ([a, b, c, d, e, f]) => [a, b, c, d, e, f].every(Number.isFinite) && Math.abs(a * d - b * c) > 1e-12;
 
@@ -216,12 +237,12 @@ export const COMMANDS = {
   setJoin: {
     label: "change join",
     /** @param {State} state @param {{join: Join | undefined}} args */
-    run: (state, { join }) => changeSelected(state, (knot) => defined({ ...knot, join })),
+    run: (state, { join }) => changeSelected(state, (knot) => agreeing({ ...knot, join }, {})),
   },
   setKnot: {
     label: "change knot",
     /** Sets fields of the selected knots; `undefined` takes them away. @param {State} state @param {{fields: Partial<Knot>}} args */
-    run: (state, { fields }) => changeSelected(state, (knot) => defined({ ...knot, ...fields })),
+    run: (state, { fields }) => changeSelected(state, (knot) => agreeing({ ...knot, ...fields }, fields)),
   },
   setKnotAt: {
     label: "change knot",
@@ -229,7 +250,7 @@ export const COMMANDS = {
     run: (state, { place, fields }) =>
       changeContour(state, place.contour, (old) => ({
         ...old,
-        knots: old.knots.map((knot, k) => (k === place.knot ? defined({ ...knot, ...fields }) : knot)),
+        knots: old.knots.map((knot, k) => (k === place.knot ? agreeing({ ...knot, ...fields }, fields) : knot)),
       })),
   },
   align: {

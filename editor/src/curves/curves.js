@@ -18,6 +18,12 @@ const POINTS = [1, 1, 2, 3, 0];
 
 export const catalogue = faircurve.catalogue;
 
+/**
+ * Splines whose segments are neither spirals nor Béziers: converting them takes longer than a frame, so they
+ * are drawn through close samples, and their Béziers are found only where they are asked for.
+ */
+const SLOWLY_CONVERTED = new Set(["log-aesthetic", "generated", "circle", "kurgla1"]);
+
 /** @param {string} name */
 export const splineInfo = (name) => catalogue.find((info) => info.name === name);
 
@@ -59,6 +65,11 @@ export class Solved {
   /** What could not be met, and why. @returns {readonly Place[]} */
   get relaxed() {
     return this.#once("relaxed", () => (this.#curve.status === "relaxed" ? this.#curve.relaxed : []));
+  }
+
+  /** The curve isn't what was asked for at all. @param {Place} place */
+  refuse(place) {
+    this.#known.set("relaxed", [place]);
   }
 
   /** What the spline doesn't have. @returns {readonly Place[]} */
@@ -150,8 +161,32 @@ export class Solved {
     return at ? { s, x: at.x, y: at.y, segment: nearest.segment, distance: nearest.distance } : null;
   }
 
+  /** Whether its Béziers can be had within a frame, or are known already. @param {number} accuracy */
+  isQuick(accuracy) {
+    return !SLOWLY_CONVERTED.has(this.spline) || this.#converted.has(accuracy);
+  }
+
+  /** Through close samples, with the curve's own directions there. */
+  get #sampledPath() {
+    return this.#once("sampled", () => {
+      const path = new Path2D();
+      for (const [i, rows] of this.comb.entries()) {
+        if (i === 0) path.moveTo(rows[1], rows[2]);
+        for (let r = 5; r < rows.length; r += 5) {
+          const arm = (rows[r] - rows[r - 5]) / 3;
+          const [from, to] = [rows[r - 2], rows[r + 3]];
+          path.bezierCurveTo(rows[r - 4] + arm * Math.cos(from), rows[r - 3] + arm * Math.sin(from),
+            rows[r + 1] - arm * Math.cos(to), rows[r + 2] - arm * Math.sin(to), rows[r + 1], rows[r + 2]);
+        }
+      }
+      if (this.#curve.closed) path.closePath();
+      return path;
+    });
+  }
+
   /** For the canvas, in drawing units. @param {number} accuracy */
   path2d(accuracy) {
+    if (SLOWLY_CONVERTED.has(this.spline)) return this.#sampledPath;
     let path = this.#paths.get(accuracy);
     if (!path) {
       const beziers = this.#beziersNow?.(accuracy) ?? this.#curve.beziers(accuracy);
@@ -221,16 +256,60 @@ export class Following {
   }
 }
 
+/**
+ * How many cubics several curves are written with: at once where that is quick, or else bit by bit.
+ * @param {readonly Solved[]} curves
+ * @param {number} accuracy
+ * @param {(count: {cubics: number, lines: number} | null) => void} show `null` while it isn't known
+ * @returns {() => void} stops
+ */
+export function countBeziers(curves, accuracy, show) {
+  const missing = curves.filter((curve) => !curve.isQuick(accuracy));
+  const tell = () => {
+    const all = curves.map((curve) => curve.beziers(accuracy));
+    show({ cubics: all.reduce((n, b) => n + b.cubics, 0), lines: all.reduce((n, b) => n + b.lines, 0) });
+  };
+  if (missing.length === 0) {
+    tell();
+    return () => {};
+  }
+  show(null);
+  let timer = setTimeout(next, 400);
+  function next() {
+    missing.pop()?.beziers(accuracy);
+    if (missing.length > 0) timer = setTimeout(next, 30);
+    else tell();
+  }
+  return () => clearTimeout(timer);
+}
+
+/**
+ * The canonical curve.
+ * @param {Contour} contour
+ * @param {Choice} choice
+ */
+function solve(contour, { spline, params }) {
+  const { contours } = faircurve.solve({ contours: [{ closed: contour.closed, knots: contour.knots, spline, params }] });
+  return new Solved(contours[0]);
+}
+
 /** What the curve store needs; tests may bring their own. */
 export const packageCurves = {
   /**
-   * The canonical curve.
+   * The canonical curve. Where what is given has no meaning, straight lines, and why.
    * @param {Contour} contour
    * @param {Choice} choice
    */
-  solve(contour, { spline, params }) {
-    const { contours } = faircurve.solve({ contours: [{ closed: contour.closed, knots: contour.knots, spline, params }] });
-    return new Solved(contours[0]);
+  solve(contour, choice) {
+    try {
+      return solve(contour, choice);
+    } catch (error) {
+      if (!(error instanceof faircurve.FaircurveError)) throw error;
+      const knots = contour.knots.map(({ x, y }) => ({ x, y }));
+      const lines = solve({ ...contour, knots }, { spline: "polygon", params: {} });
+      lines.refuse({ segment: 0, asked: choice.spline, got: "polygon", reason: [error.message, error.hint].filter(Boolean).join("; ") });
+      return lines;
+    }
   },
   /** @param {Contour} contour @param {Choice} choice */
   follow: (contour, choice) => new Following(contour, choice),

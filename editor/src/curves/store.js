@@ -62,6 +62,21 @@ export class CurveStore {
    */
   #followed(index, from, contour, choice) {
     if (!from) return this.curves.solve(contour, choice);
+    try {
+      return this.#follow(index, from, contour, choice);
+    } catch {
+      // What is given has no meaning at this moment; the canonical way says so.
+      return this.curves.solve(contour, choice);
+    }
+  }
+
+  /**
+   * @param {number} index
+   * @param {Contour} from
+   * @param {Contour} contour
+   * @param {Choice} choice
+   */
+  #follow(index, from, contour, choice) {
     const word = wordFor(choice);
     let held = this.#inHand.get(index);
     if (!held || held.from !== from || held.word !== word) {

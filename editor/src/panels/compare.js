@@ -2,7 +2,7 @@
 
 import { choiceOf } from "../core/document.js";
 import { union } from "../core/geometry.js";
-import { catalogue, splineInfo } from "../curves/curves.js";
+import { catalogue, countBeziers, splineInfo } from "../curves/curves.js";
 import { COMPARE_COLOURS } from "../view/stage.js";
 import { Viewport } from "../view/viewport.js";
 import { colourOf } from "../view/colours.js";
@@ -36,6 +36,8 @@ export function buildCompare(app) {
   panel.append(h("header", {}, h("h2", {}, "Compare splines"), close), picks, params, table, h("div", { class: "buttons" }, side, none));
 
   let shown = "";
+  /** Counts under way. @type {(() => void)[]} */
+  const counting = [];
   const update = () => {
     if (panel.hidden) return;
     const { compare, compareParams } = settings.values;
@@ -57,10 +59,13 @@ export function buildCompare(app) {
       }));
     }
     const all = [{ name: `${editor.state.document.spline}`, colour: "var(--canvas-curve)", curves: app.stage.curves }, ...app.stage.compared];
+    for (const stop of counting.splice(0)) stop();
     rows.replaceChildren(...all.map(({ name, colour, curves }, i) => {
-      const n = totals(curves, settings.values.accuracy);
+      const n = totals(curves);
+      const cubics = h("td");
+      counting.push(countBeziers(curves, settings.values.accuracy, (n) => (cubics.textContent = n ? String(n.cubics) : "…")));
       return h("tr", {}, h("th", { scope: "row" }, h("span", { class: "swatch", style: `background:${colour}` }), i === 0 ? `${name} (drawing)` : name),
-        ...[number(n.length, 5), number(n.bending, 3), number(n.variation, 3), String(n.cubics)].map((cell) => h("td", {}, cell)));
+        ...[number(n.length, 5), number(n.bending, 3), number(n.variation, 3)].map((cell) => h("td", {}, cell)), cubics);
     }));
     none.hidden = side.hidden = compare.length === 0;
   };
@@ -73,12 +78,12 @@ export function buildCompare(app) {
   return { panel, update };
 }
 
-/** @param {readonly Solved[]} curves @param {number} accuracy */
-function totals(curves, accuracy) {
+/** @param {readonly Solved[]} curves */
+function totals(curves) {
   const sum = (/** @type {(curve: Solved) => number} */ of) => curves.reduce((total, curve) => total + of(curve), 0);
   return {
     length: sum(({ measures }) => measures.length), bending: sum(({ measures }) => measures.bendingEnergy),
-    variation: sum(({ measures }) => measures.variationEnergy), cubics: sum((curve) => curve.beziers(accuracy).cubics),
+    variation: sum(({ measures }) => measures.variationEnergy),
   };
 }
 
@@ -128,10 +133,10 @@ function openSide(app) {
   const knots = contours.flatMap((contour) => contour.knots);
   const closed = contours.every((contour) => contour.closed);
   const cells = all.map(({ name, curves }) => {
-    const n = totals(curves, app.settings.values.accuracy);
+    const n = totals(curves);
     const relaxed = curves.reduce((count, curve) => count + curve.relaxed.length, 0);
     return h("figure", {}, picture(app, curves, `the drawing by ${name}`, knots, closed),
-      h("figcaption", {}, h("b", {}, name), ` length ${number(n.length, 5)}, bending ${number(n.bending, 3)}, variation ${number(n.variation, 3)}, ${n.cubics} cubics${relaxed ? `, ${relaxed} relaxed` : ""}`));
+      h("figcaption", {}, h("b", {}, name), ` length ${number(n.length, 5)}, bending ${number(n.bending, 3)}, variation ${number(n.variation, 3)}${relaxed ? `, ${relaxed} relaxed` : ""}`));
   });
   app.dialog("Side by side", "side", h("div", { class: "cells" }, ...cells));
 }

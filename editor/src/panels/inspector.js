@@ -7,7 +7,7 @@ import { SOURCES } from "../core/snap.js";
 import { LAYERS } from "../view/layers.js";
 import { symbolPicture } from "../view/symbols.js";
 import { actionOf } from "../actions.js";
-import { catalogue, splineInfo } from "../curves/curves.js";
+import { catalogue, countBeziers, splineInfo } from "../curves/curves.js";
 import { byId, h, number } from "./dom.js";
 import { paramControls } from "./params.js";
 
@@ -288,6 +288,7 @@ function contourPart(app) {
   const table = h("table", { class: "numbers" }, heading, rows);
   const element = part("Contour", own, table);
   const title = /** @type {HTMLElement} */ (element.querySelector("h2"));
+  let stopCounting = () => {};
   return {
     element,
     /** @param {boolean} all */
@@ -306,13 +307,17 @@ function contourPart(app) {
       }
       const measured = only === undefined ? curves : [curves[only]];
       const sum = (/** @type {(m: typeof curves[0]["measures"]) => number} */ of) => measured.reduce((total, curve) => total + of(curve.measures), 0);
-      const beziers = measured.map((curve) => curve.beziers(settings.values.accuracy));
       const row = (/** @type {string} */ name, /** @type {string} */ value, /** @type {string} */ hint) =>
         h("tr", { title: hint }, h("th", { scope: "row" }, name), h("td", {}, value));
+      const cubics = row("cubics", "", `Béziers that are written, within ${settings.values.accuracy} units`);
+      stopCounting();
+      stopCounting = countBeziers(measured, settings.values.accuracy, (n) => {
+        /** @type {HTMLElement} */ (cubics.lastElementChild).textContent = n ? `${n.cubics}${n.lines ? ` + ${n.lines} lines` : ""}` : "…";
+      });
       const knots = only === undefined ? editor.contours.reduce((n, c) => n + c.knots.length, 0) : editor.contours[only].knots.length;
       rows.replaceChildren(
         row("knots", String(knots), "given points"),
-        row("cubics", `${beziers.reduce((n, b) => n + b.cubics, 0)}${beziers.some((b) => b.lines) ? ` + ${beziers.reduce((n, b) => n + b.lines, 0)} lines` : ""}`, `Béziers that are written, within ${settings.values.accuracy} units`),
+        cubics,
         row("length", number(sum((m) => m.length), 5), "arc length in units"),
         row("bending", number(sum((m) => m.bendingEnergy), 4), "∫κ² ds, in 1/units"),
         row("variation", number(sum((m) => m.variationEnergy), 4), "∫κ′² ds, in 1/units³"),

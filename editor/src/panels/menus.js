@@ -23,9 +23,7 @@ export function buildMenus(app) {
       list.style.top = `${box.bottom + 2}px`;
     });
     list.addEventListener("toggle", (event) => {
-      const open = /** @type {ToggleEvent} */ (event).newState === "open";
-      button.setAttribute("aria-expanded", String(open));
-      if (open) /** @type {HTMLElement | null} */ (list.querySelector("button:not(:disabled)"))?.focus();
+      button.setAttribute("aria-expanded", String(/** @type {ToggleEvent} */ (event).newState === "open"));
     });
     list.addEventListener("keydown", (event) => walk(event, list));
     // With one menu open, pointing at another opens that.
@@ -44,10 +42,11 @@ export function buildMenus(app) {
 /** @param {App} app @param {HTMLElement} list @param {string} group */
 function fill(app, list, group) {
   const actions = ACTIONS.filter((action) => action.group === group && !action.hidden);
+  const first = actions.find((action) => isEnabled(action, app));
   list.replaceChildren(...actions.flatMap((action) => {
     const checked = action.checked?.(app);
     const item = h("button", {
-      type: "button", class: "menu-item", disabled: !isEnabled(action, app), "data-action": action.id,
+      type: "button", class: "menu-item", disabled: !isEnabled(action, app), autofocus: action === first, "data-action": action.id,
       role: checked === undefined ? "menuitem" : "menuitemcheckbox", "aria-checked": checked,
       onclick() {
         list.hidePopover();

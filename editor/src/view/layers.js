@@ -125,6 +125,8 @@ function drawBeziers(scene) {
   const { context, curves, colours, viewport, settings } = scene;
   context.lineWidth = 1;
   for (const curve of curves) {
+    // Those of a curve in the hand must not hold up the hand.
+    if (scene.isInHand && !curve.isQuick(settings.accuracy)) continue;
     /** @type {import("../core/geometry.js").Point | null} */
     let last = null;
     const joint = (/** @type {import("../core/geometry.js").Point} */ p) => {

@@ -16,6 +16,7 @@
  * @property {Overlay} overlay
  * @property {readonly Compared[]} compared
  * @property {import("./background.js").Background} background
+ * @property {boolean} isInHand whether something is dragged or previewed
  * @property {number} combReference the curvature whose tooth has the set length
  */
 /** Curves of one spline beside the drawing's own. @typedef {{name: string, colour: string, curves: readonly Solved[]}} Compared */

@@ -97,6 +97,7 @@ export class Stage {
       overlay: { ...this.#overlay, frame: this.#overlay.frame ?? this.frame },
       compared: this.compared,
       background: this.background,
+      isInHand: this.editor.isPreviewing,
       combReference: this.combReference,
     });
     for (const listener of this.#afterFrame) listener();
