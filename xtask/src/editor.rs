@@ -38,9 +38,47 @@ fn build(package: &Path) -> Result<PathBuf, String> {
     for part in PARTS {
         copy(&root().join("editor").join(part), &site.join(part), &|_| true)?;
     }
-    let is_run = |name: &str| !name.ends_with(".ts") && name != "README.md" && name != "node_modules";
+    let is_run =
+        |name: &str| !name.ends_with(".ts") && name != "README.md" && name != "node_modules";
     copy(package, &site.join("faircurve"), &is_run)?;
+    preload(&site)?;
     Ok(site)
+}
+
+/// Lets the page name all that it needs at the start, so that a browser fetches modules at once instead of one
+/// after the other as they import each other.
+fn preload(site: &Path) -> Result<(), String> {
+    const MARK: &str = "<link rel=\"modulepreload\" href=\"src/main.js\">";
+    let mut links = Vec::new();
+    for folder in ["src", "faircurve"] {
+        modules(site, folder, &mut links)?;
+    }
+    links.sort();
+    links.push(
+        "<link rel=\"preload\" href=\"faircurve/wasm/solver_bg.wasm\" as=\"fetch\" crossorigin>".to_owned(),
+    );
+    let index = site.join("index.html");
+    let page = fs::read_to_string(&index).map_err(|error| at(&index, &error))?;
+    let whole = page.replace(MARK, &links.join("\n    "));
+    fs::write(&index, whole).map_err(|error| at(&index, &error))
+}
+
+/// Links to the modules in a folder of the site that the start needs: all but what reads and writes files, and
+/// the package's other ways in.
+fn modules(site: &Path, folder: &str, links: &mut Vec<String>) -> Result<(), String> {
+    const LATER: [&str; 3] = ["formats.js", "d3.js", "spiro.js"];
+    let path = site.join(folder);
+    for entry in fs::read_dir(&path).map_err(|error| at(&path, &error))? {
+        let name = entry.map_err(|error| at(&path, &error))?.file_name();
+        let name = name.to_string_lossy();
+        let address = format!("{folder}/{name}");
+        if path.join(&*name).is_dir() {
+            modules(site, &address, links)?;
+        } else if name.ends_with(".js") && !LATER.contains(&&*name) {
+            links.push(format!("<link rel=\"modulepreload\" href=\"{address}\">"));
+        }
+    }
+    Ok(())
 }
 
 /// Checks the types and runs the tests in Node and in a browser.

@@ -11,8 +11,8 @@ import * as faircurve from "faircurve";
 /** @typedef {{knot?: number, segment?: number, asked: string, got: string, reason?: string}} Place */
 /** @typedef {{s: number, x: number, y: number, segment: number, distance: number}} Nearest */
 
-/** Steps a segment for combs and plots: fine enough that the rim of a comb looks smooth. */
-const COMB_STEPS = 18;
+/** Steps a segment for combs and plots: fine enough that the rim of a comb looks smooth; fewer where there are many segments, which are short then. */
+const COMB_STEPS = { most: 18, least: 5, ofAll: 1500 };
 const COMMANDS = /** @type {const} */ (["move", "line", "quad", "cubic", "close"]);
 const POINTS = [1, 1, 2, 3, 0];
 
@@ -105,8 +105,9 @@ export class Solved {
   /** For each segment rows of arc length, x, y, direction, curvature. @returns {Float64Array[]} */
   get comb() {
     return this.#once("comb", () => {
-      const all = this.#curve.comb(COMB_STEPS);
-      const size = 5 * (COMB_STEPS + 1);
+      const steps = Math.max(COMB_STEPS.least, Math.min(COMB_STEPS.most, Math.round(COMB_STEPS.ofAll / Math.max(1, this.knots.length))));
+      const all = this.#curve.comb(steps);
+      const size = 5 * (steps + 1);
       return Array.from({ length: all.length / size }, (_, i) => all.subarray(i * size, (i + 1) * size));
     });
   }
@@ -114,8 +115,7 @@ export class Solved {
   /** A curvature that few places exceed, by which combs are scaled: one cusp doesn't flatten all the rest. @returns {number} */
   get typicalCurvature() {
     return this.#once("typical", () => {
-      const all = this.comb.flatMap((rows) => Array.from({ length: rows.length / 5 }, (_, i) => Math.abs(rows[5 * i + 4])));
-      all.sort((a, b) => a - b);
+      const all = Float64Array.from(this.comb.flatMap((rows) => Array.from({ length: rows.length / 5 }, (_, i) => Math.abs(rows[5 * i + 4])))).sort();
       return all[Math.floor(0.96 * (all.length - 1))] ?? 0;
     });
   }

@@ -8,6 +8,8 @@ import { byId, h, number } from "./dom.js";
 
 /** @typedef {import("../app.js").App} App */
 
+/** Milliseconds between plots while something is dragged. */
+const PAUSE = 60;
 const MARGIN = { left: 64, right: 20, top: 24, bottom: 24 };
 
 /** @param {App} app */
@@ -48,11 +50,11 @@ export function buildPlot(app) {
     canvas.setAttribute("aria-label", title.textContent);
     if (segments.length === 0) return;
     const kappas = segments.flatMap((rows) => Array.from({ length: rows.length / 5 }, (_, i) => rows[5 * i + 4]));
-    const sorted = kappas.toSorted((a, b) => a - b);
+    const [lowest, highest] = kappas.reduce(([low, high], k) => [Math.min(low, k), Math.max(high, k)], [0, 0]);
     // A cusp's curvature is cut, so that the rest can be read.
     const limit = 4 * curve.typicalCurvature;
-    const low = Math.min(0, Math.max(sorted[0], -limit));
-    const high = Math.max(0, Math.min(sorted[sorted.length - 1], limit));
+    const low = Math.max(lowest, -limit);
+    const high = Math.min(highest, limit);
     const span = high - low || 1;
     const plotWidth = width - MARGIN.left - MARGIN.right;
     const plotHeight = height - MARGIN.top - MARGIN.bottom;
@@ -124,7 +126,14 @@ export function buildPlot(app) {
     }
   }
 
-  app.stage.afterFrame(draw);
+  // What is dragged comes first: the plot leaves frames out.
+  let last = 0;
+  app.stage.afterFrame(() => {
+    const now = performance.now();
+    if (app.editor.isPreviewing && now - last < PAUSE) return;
+    last = now;
+    draw();
+  });
   app.settings.subscribe(() => {
     panel.hidden = !app.settings.values.plot;
     draw();

@@ -78,7 +78,7 @@ export function openTest(app) {
 
 /** Figure 2.2: votes as bars, energy as a line. @param {number[]} energies */
 function chart(energies) {
-  const [width, height, left, bottom, top] = [640, 260, 40, 34, 16];
+  const [width, height, left, bottom, top] = [640, 260, 56, 34, 16];
   const { votes } = summed(answers());
   const most = Math.max(1, ...votes.map(({ count }) => count));
   const least = Math.min(...energies);

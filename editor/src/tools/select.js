@@ -68,6 +68,7 @@ export const select = {
       else if (!all) editor.select(Selection.of(whole));
       return moving(studio, at, null);
     }
+    if (stage.background.holds(at.point)) return movingPicture(studio, at);
     return marquee(studio, at);
   },
 };
@@ -173,6 +174,20 @@ function transforming({ editor, stage }, { handle, box }, from) {
     },
     end: () => editor.commit(),
     cancel: () => editor.cancel(),
+  };
+}
+
+/** Moves the picture to trace, which is no part of the drawing: there is no undo for it. @param {Studio} studio @param {Pointer} from @returns {Drag} */
+function movingPicture({ stage, keeping }, from) {
+  const { x, y } = stage.background;
+  const to = (/** @type {number} */ dx, /** @type {number} */ dy) => {
+    Object.assign(stage.background, { x: x + dx, y: y + dy });
+    stage.invalidate();
+  };
+  return {
+    move: (at) => to(at.point.x - from.point.x, at.point.y - from.point.y),
+    end: () => keeping.keepPicture(),
+    cancel: () => to(0, 0),
   };
 }
 

@@ -19,6 +19,7 @@
  * @property {(name: string) => import("faircurve").SplineInfo} info of a spline of the catalogue
  * @property {(message: string) => void} say to the status line
  * @property {(id: string) => void} useTool
+ * @property {{keepPicture: () => void}} keeping
  */
 /** A press until its end: what happens as the pointer moves. @typedef {{move?: (at: Pointer) => void, end?: (at: Pointer) => void, cancel?: () => void}} Drag */
 /**

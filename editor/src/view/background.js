@@ -21,6 +21,12 @@ export class Background {
     context.globalAlpha = 1;
   }
 
+  /** Whether it can be grasped at a point. @param {import("../core/geometry.js").Point} p */
+  holds({ x, y }) {
+    if (!this.image || this.locked) return false;
+    return x >= this.x && y >= this.y && x <= this.x + this.image.width * this.scale && y <= this.y + this.height;
+  }
+
   /** Height of the picture in units, which is how its size is told. */
   get height() {
     return (this.image?.height ?? 0) * this.scale;

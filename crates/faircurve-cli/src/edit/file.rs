@@ -77,9 +77,8 @@ impl EditedFile {
                 "save among your downloads, or start `faircurve edit` with a .json file".to_owned(),
             ));
         }
-        read(bytes, self.kind).map_err(|error| {
-            Unsaved::Refused(error.to_string(), error.hint.unwrap_or_default())
-        })?;
+        read(bytes, self.kind)
+            .map_err(|error| Unsaved::Refused(error.to_string(), error.hint.unwrap_or_default()))?;
         if version != "*" {
             let (_, now) = self.contents().map_err(Unsaved::Unwritable)?;
             if now != version {

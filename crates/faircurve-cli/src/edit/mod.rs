@@ -28,6 +28,5 @@ pub(crate) fn run(args: &EditArgs) -> Result<ExitCode, Failure> {
     if !args.no_browser && open::that_detached(&address).is_err() {
         failure::hint("open the address in a browser");
     }
-    server.serve();
-    Ok(ExitCode::SUCCESS)
+    server.serve().map(|()| ExitCode::SUCCESS)
 }
