@@ -1,7 +1,7 @@
 //! The npm package, built into target/npm.
 //!
-//! Needs the target wasm32-unknown-unknown, and Node with npm. `RUSTC`, `WASM_CARGO_FLAGS` and the
-//! like reach cargo, for toolchains that have the target in another way.
+//! Needs the target wasm32-unknown-unknown, and Node with npm. Where rustup can't add the target,
+//! `crates/faircurve-wasm/debian-toolchain.sh` says which compiler and flags to take instead.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,7 +15,18 @@ const TARGET: &str = "wasm32-unknown-unknown";
 
 /// The modules: name, which is that of the crate's feature, too, and optimisation level. The solver
 /// is hot.
-const MODULES: [(&str, &str); 2] = [("solver", "s"), ("formats", "z")];
+const MODULES: [(&str, &str); 2] = [("solver", "3"), ("formats", "z")];
+
+/// What every browser since 2022 and Node 18 have of WebAssembly; Rust's compiler uses no more.
+const FEATURES: [&str; 7] = [
+    "bulk-memory",
+    "bulk-memory-opt",
+    "nontrapping-float-to-int",
+    "sign-ext",
+    "mutable-globals",
+    "reference-types",
+    "multivalue",
+];
 
 /// Builds the package; its folder.
 pub(crate) fn build() -> Result<PathBuf, String> {
@@ -72,6 +83,9 @@ fn module(name: &str, level: &str) -> Result<(), String> {
         .args(["--no-default-features", "--features", name])
         .args(flags.split_whitespace())
         .env("CARGO_PROFILE_WASM_OPT_LEVEL", level);
+    if let Some(compiler) = std::env::var_os("FAIRCURVE_WASM_RUSTC") {
+        cargo.env("RUSTC", compiler).env("RUSTC_BOOTSTRAP", "1");
+    }
     run(&mut cargo)?;
     let built = target_folder().join(TARGET).join("wasm/faircurve_wasm.wasm");
     let mut bindgen = Bindgen::new();
@@ -81,7 +95,8 @@ fn module(name: &str, level: &str) -> Result<(), String> {
     let folder = source().join("js/wasm");
     bindgen.generate(&folder).map_err(|error| format!("wasm-bindgen: {error:#}"))?;
     let file = folder.join(format!("{name}_bg.wasm"));
-    run(npx("wasm-opt").arg(&file).args(["-Oz", "--all-features", "-o"]).arg(&file))
+    let features = FEATURES.map(|feature| format!("--enable-{feature}"));
+    run(npx("wasm-opt").arg(&file).args(features).args(["-Oz", "-o"]).arg(&file))
 }
 
 /// A program of the package's npm dependencies.

@@ -41,7 +41,7 @@ pub(crate) fn as_text() -> Result<String, Failure> {
     );
     table(&mut text, &rows, &NUMBERS);
     text.push_str(
-        "\nmore numbers: jumps at knots, without units; the factor of a ripple from knot to knot, and how many \
+        "\nmore numbers: largest jumps, without units; the factor of a ripple from knot to knot, and how many \
          segments\na knot moves; how much faster than a knot the curve moves; how far segments are from being \
          cut from one curve\n\n",
     );

@@ -28,7 +28,7 @@ fn solution(document: &Value, samples: usize) -> Value {
                 let spline = catalog::build(&choice.name, &choice.params).unwrap();
                 (choice.name.clone(), solve(&contour.contour, &*spline).unwrap())
             });
-            SolvedGlyph::new(glyph.name.clone(), glyph.layer.clone(), contours, None)
+            SolvedGlyph::unconverted(glyph.name.clone(), glyph.layer.clone(), contours)
         })
         .collect();
     serde_json::from_str(&solution_json::write(&solved, Some(samples))).unwrap()
@@ -91,11 +91,13 @@ fn difference(a: &Value, b: &Value, key: &str, column: usize, units: Units) -> O
                 difference(a, b, key, i, units).map(|at| format!("{key}[{i}] {at}"))
             })
         }
-        (Value::Object(a), Value::Object(b)) if a.len() == b.len() => a.iter().find_map(|(key, a)| {
-            let is_free = ["iterations", "residual", "path"].contains(&key.as_str());
-            let b = b.get(key).unwrap_or(&Value::Null);
-            if is_free { None } else { difference(a, b, key, 0, units) }
-        }),
+        (Value::Object(a), Value::Object(b)) if a.len() == b.len() => {
+            a.iter().find_map(|(key, a)| {
+                let is_free = ["iterations", "residual", "path"].contains(&key.as_str());
+                let b = b.get(key).unwrap_or(&Value::Null);
+                if is_free { None } else { difference(a, b, key, 0, units) }
+            })
+        }
         _ => (a != b).then(|| format!("{key}: {a} {b}")),
     }
 }

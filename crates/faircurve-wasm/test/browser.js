@@ -17,7 +17,11 @@ export async function withPage(folder, use) {
   const server = createServer((request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url, "http://localhost").pathname));
     const file = join(folder, path);
+    // Isolated pages have clocks of 5 µs instead of 100.
+    response.setHeader("cross-origin-opener-policy", "same-origin");
+    response.setHeader("cross-origin-embedder-policy", "require-corp");
     if (path === "/empty") return void response.setHeader("content-type", "text/html").end("<!doctype html>");
+    if (path === "/favicon.ico") return void response.writeHead(204).end();
     if (!existsSync(file)) return void response.writeHead(404).end();
     response.setHeader("content-type", TYPES[extname(file)] ?? "application/octet-stream");
     createReadStream(file).pipe(response);
@@ -28,7 +32,7 @@ export async function withPage(folder, use) {
     const page = await browser.newPage();
     const errors = [];
     page.on("pageerror", (error) => errors.push(String(error)));
-    page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+    page.on("response", (answer) => answer.status() >= 400 && errors.push(`${answer.status()} ${answer.url()}`));
     return await use(page, `http://127.0.0.1:${server.address().port}`, errors);
   } finally {
     await browser.close();

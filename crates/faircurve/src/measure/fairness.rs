@@ -217,6 +217,15 @@ pub fn jumps(curve: &Curve) -> Vec<Option<Jump>> {
     pairs.into_iter().map(|pair| pair.map(|(a, b)| Jump::between(a, b))).collect()
 }
 
+/// The jumps at joints inside segments of several pieces (biarcs, the two parabolas of κ-curves).
+pub(super) fn jumps_within(curve: &Curve) -> Vec<Jump> {
+    let pieces = curve.segments().iter().filter_map(|segment| match segment.shape() {
+        Shape::Chain(members) => Some(members),
+        _ => None,
+    });
+    pieces.flat_map(|m| m.windows(2).map(|pair| Jump::between(&pair[0], &pair[1]))).collect()
+}
+
 /// For each knot, the segment that arrives and the next one of any length that leaves.
 fn neighbours(curve: &Curve) -> Vec<Option<(&Segment, &Segment)>> {
     let segments = curve.segments();

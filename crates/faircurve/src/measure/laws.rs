@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 use kurbo::{Affine, Point, Vec2};
 
-use super::fairness::jumps;
+use super::fairness::{jumps, jumps_within};
 use crate::frame::{direction, wrap_angle};
 use crate::outline::{Contour, Knot};
 use crate::segment::{Segment, Shape};
@@ -22,7 +22,7 @@ pub struct Laws {
     pub misses: f64,
     /// How the curve follows maps of the plane and the other direction of travel (2.7).
     pub invariance: Invariance,
-    /// The largest jumps at knots of direction, κ, κ′, κ″, without units
+    /// The largest jumps, at knots and at joints between them, of direction, κ, κ′, κ″, without units
     /// ([`Jump::dimensionless`](super::Jump::dimensionless)), on gentle drawings solved as asked
     /// (2.2); `None` if there are none.
     pub jumps: Option<[f64; 4]>,
@@ -311,7 +311,10 @@ fn off_backwards(spline: &dyn Spline, contour: &Contour, solution: &Solution) ->
 
 fn largest_jumps(gentle: &Gentle) -> Option<[f64; 4]> {
     let solved = gentle.solutions.iter().filter(|s| s.report.status() == Status::Solved);
-    let all = solved.flat_map(|solution| jumps(&solution.curve)).flatten();
+    let all = solved.flat_map(|solution| {
+        let at_knots = jumps(&solution.curve).into_iter().flatten();
+        at_knots.chain(jumps_within(&solution.curve))
+    });
     let sizes = all.map(|jump| jump.dimensionless().map(f64::abs));
     sizes.reduce(|most, here| std::array::from_fn(|order| most[order].max(here[order])))
 }

@@ -38,7 +38,7 @@ pub const INFO: SplineInfo = SplineInfo {
     ends: &["parabola"],
     claims: &[
         Claim::Parameters(2),
-        Claim::Continuity(2),
+        Claim::Continuity(1),
         Claim::SimilarityInvariant,
         Claim::Symmetric,
     ],

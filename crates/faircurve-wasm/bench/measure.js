@@ -1,0 +1,134 @@
+// Sizes, starts, times and a drag. Times are those of this machine and of the moment: run it when nothing else does.
+import { execFileSync } from "node:child_process";
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { gzipSync } from "node:zlib";
+import { solve } from "faircurve";
+import { browserPath, withPage } from "../test/browser.js";
+import { drag } from "./drag.js";
+import { median, outline } from "./drawings.js";
+
+const spiro = createRequire(import.meta.url)("spiro");
+const installed = "node_modules/faircurve";
+
+function heading(text) {
+  console.log(`\n${text}`);
+}
+
+function sizes() {
+  heading("Size, kB of 1000 bytes: as it is, gzipped");
+  const kB = (files) => {
+    const bytes = files.map((file) => readFileSync(join(installed, file)));
+    const plain = bytes.reduce((sum, b) => sum + b.length, 0);
+    const zipped = bytes.reduce((sum, b) => sum + gzipSync(b, { level: 9 }).length, 0);
+    return `${(plain / 1000).toFixed(1).padStart(8)} ${(zipped / 1000).toFixed(1).padStart(8)}`;
+  };
+  const scripts = readdirSync(installed).filter((name) => name.endsWith(".js") && name !== "formats.js");
+  console.log(`solver module   ${kB(["wasm/solver_bg.wasm"])}`);
+  console.log(`its JavaScript  ${kB([...scripts, "wasm/solver.js"])}`);
+  console.log(`formats module  ${kB(["wasm/formats_bg.wasm"])}`);
+  console.log(`its JavaScript  ${kB(["formats.js", "wasm/formats.js"])}`);
+}
+
+/** µs of one call, the middle of many. */
+function time(does) {
+  const times = [];
+  const end = performance.now() + 400;
+  for (let i = 0; i < 20 || performance.now() < end; i++) {
+    const start = performance.now();
+    does();
+    times.push(1000 * (performance.now() - start));
+  }
+  return median(times);
+}
+
+function native(counts) {
+  writeFileSync("points.json", JSON.stringify(counts.map((n) => outline(n).map(({ x, y }) => [x, y]))));
+  const words = ["run", "--release", "--quiet", "-p", "faircurve", "--example", "solve_times", "--"];
+  const options = { cwd: process.env.FAIRCURVE_ROOT, encoding: "utf8", stdio: ["ignore", "pipe", "inherit"] };
+  return execFileSync("cargo", [...words, join(process.cwd(), "points.json")], options)
+    .trim()
+    .split("\n")
+    .map((line) => line.split(" ").map(Number));
+}
+
+function times() {
+  // Levien's spline-research, JavaScript, 64 knots, µs, as measured beside npm's spiro in November 2026.
+  const RESEARCH = { bespoke: 594, euler: 1239 };
+  heading("Times, µs, closed contours of all-g4 knots (Node): solve; solve and Béziers");
+  const counts = [16, 64, 256];
+  const rust = native(counts);
+  console.log("knots  native         wasm           npm spiro  ratio");
+  counts.forEach((n, i) => {
+    const contours = [{ closed: true, knots: outline(n) }];
+    const theirs = outline(n).map((knot) => ({ ...knot, type: "g4" }));
+    const solved = time(() => solve({ contours }).contours[0].free());
+    const drawn = time(() => {
+      const [curve] = solve({ contours }).contours;
+      curve.beziers(0.1);
+      curve.free();
+    });
+    const other = time(() => spiro.spiroToBezier(theirs, true));
+    const pair = ([a, b]) => `${a.toFixed(0).padStart(5)} ${b.toFixed(0).padStart(6)}   `;
+    console.log(
+      `${String(n).padStart(5)} ${pair(rust[i])} ${pair([solved, drawn])} ${other.toFixed(0).padStart(8)}  ${(other / drawn).toFixed(1)}`,
+    );
+  });
+  for (const [spline, theirs] of Object.entries(RESEARCH)) {
+    const contours = [{ spline, closed: true, knots: outline(64) }];
+    const ours = time(() => solve({ contours }).contours[0].free());
+    console.log(`64 knots, ${spline}, solve alone: ${ours.toFixed(0)}; spline-research ${theirs}; ratio ${(theirs / ours).toFixed(1)}`);
+  }
+}
+
+const FIRST = `
+  const start = performance.now();
+  const { solve } = await import(SOURCE);
+  const [curve] = solve({ contours: [{ closed: true, knots: [{ x: 0, y: 0 }, { x: 90, y: 10 }, { x: 50, y: 80 }, { x: 10, y: 70 }] }] }).contours;
+  const path = curve.toSVG();
+`;
+
+async function starts() {
+  heading("From nothing to the first curve, ms: middle of 15");
+  const script = `${FIRST.replace("SOURCE", '"faircurve"')} console.log(performance.now() - start);`;
+  const inNode = Array.from({ length: 15 }, () => Number(execFileSync("node", ["--input-type=module", "-e", script])));
+  console.log(`Node      ${median(inNode).toFixed(1)}`);
+  if (!browserPath) return;
+  const inBrowser = [];
+  await withPage(process.cwd(), async (page, address) => {
+    for (let i = 0; i < 15; i++) {
+      const context = await page.context().browser().newContext();
+      const fresh = await context.newPage();
+      await fresh.goto(`${address}/empty`);
+      const source = JSON.stringify(`${address}/${installed}/index.js`);
+      inBrowser.push(await fresh.evaluate(`(async () => { ${FIRST.replace("SOURCE", source)} return performance.now() - start; })()`));
+      await context.close();
+    }
+  });
+  console.log(`Chromium  ${median(inBrowser).toFixed(1)}`);
+}
+
+async function drags() {
+  heading("A knot of 250 dragged 1000 times, solve and Béziers, ms: middle, 99th percentile, longest; from anew");
+  const cases = [{ spline: "spiro" }, { spline: "spiro", join: "g2" }, { spline: "euler" }];
+  const name = ({ spline, join }) => `${spline} ${join ?? ""}`.padEnd(10);
+  for (const each of cases) console.log(`Node      ${name(each)} ${drag(each).join(" ")}`);
+  if (!browserPath) return;
+  await withPage(process.cwd(), async (page, address) => {
+    await page.goto(`${address}/empty`);
+    await page.setContent(`<script type="importmap">{ "imports": { "faircurve": "/${installed}/index.js" } }</script>`);
+    for (const each of cases) {
+      const numbers = await page.evaluate(async ([at, options]) => {
+        const { drag } = await import(`${at}/bench/drag.js`);
+        return drag(options);
+      }, [address, each]);
+      console.log(`Chromium  ${name(each)} ${numbers.join(" ")}`);
+    }
+  });
+}
+
+sizes();
+times();
+await starts();
+await drags();
