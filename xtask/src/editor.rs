@@ -95,10 +95,14 @@ fn test(package: &Path, site: &Path) -> Result<(), String> {
     empty(&installed)?;
     copy(package, &installed, &|_| true)?;
     cargo(&["build", "--release", "-p", "faircurve-cli"])?;
-    for script in ["check", "test", "browser"] {
-        npm(&["run", "--silent", script])?;
+    npm(&["run", "--silent", "check"])?;
+    npm(&["run", "--silent", "test"])?;
+    let chromium = std::env::var_os("CHROMIUM").unwrap_or_else(|| "/usr/bin/chromium".into());
+    if !Path::new(&chromium).exists() {
+        println!("there is no {}: no tests in a browser", chromium.display());
+        return Ok(());
     }
-    Ok(())
+    npm(&["run", "--silent", "browser"])
 }
 
 fn cargo(arguments: &[&str]) -> Result<(), String> {
