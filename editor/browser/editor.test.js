@@ -250,6 +250,21 @@ test("a damaged file is refused with its place, and nothing is lost", async () =
   await context.close();
 });
 
+test("a file dropped on the page is opened", async () => {
+  const { page, problems, context } = await open(browser, site.url);
+  await page.evaluate(() => {
+    const data = new DataTransfer();
+    data.items.add(new File(["0,0\n100,0\n50,80\n"], "three.csv"));
+    dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
+  });
+  await page.waitForFunction(() => document.querySelector("#name")?.textContent === "three.csv");
+  assert.equal((await state(page)).contours[0].knots.length, 3);
+  await page.keyboard.press("Control+z");
+  assert.equal((await state(page)).contours.length, 0);
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
 test("joins by double click, key and button; the tangent is given, turned and freed", async () => {
   const { page, problems, context } = await open(browser, site.url);
   await page.getByRole("button", { name: "A letter" }).click();

@@ -32,9 +32,14 @@ export async function writeFile(document, name) {
   return (await formats()).write(toJson(document), name);
 }
 
-/** A picture of the curves, as the program `faircurve` draws it. @param {Document} document @param {number} accuracy */
+/**
+ * A picture of the curves, as the program `faircurve` draws it; holes are holes as on the canvas, whichever way
+ * contours run.
+ * @param {Document} document
+ * @param {number} accuracy
+ */
 export async function writeSvg(document, accuracy) {
-  return (await formats()).svg(toJson(document), { accuracy });
+  return (await formats()).svg(toJson(document), { accuracy }).replace("<svg ", '<svg fill-rule="evenodd" ');
 }
 
 /** SVG path data. @param {Document} document @param {number} accuracy */

@@ -62,7 +62,7 @@ export class Keeping {
         return;
       }
       const kept = JSON.parse(localStorage.getItem(STORE) ?? "null");
-      if (kept && this.#server === null) this.#openDocument(await readFile(kept.document, "json"), kept.name ?? this.name, kept.glyph);
+      if (kept) this.#openDocument(await readFile(kept.document, "json"), kept.name ?? this.name, kept.glyph);
     } catch (error) {
       this.app.complain(error);
     }

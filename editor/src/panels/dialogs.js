@@ -63,9 +63,9 @@ export function openKeys(app) {
     return h("section", {}, h("h3", {}, group), h("table", {}, h("tbody", {}, ...rows)));
   });
   const pointer = /** @type {[string, string][]} */ ([
-    ["Corner while drawing", "⇧ click"], ["Without snapping", `${keyWords("Mod+")}drag`], ["Add to the selection", "⇧ click, ⇧ drag"], ["Along an axis", "⇧ while dragging"],
+    ["Corner while drawing", "⇧ click"], ["Without snapping; a knot on top of a curve", `${keyWords("Mod")} while clicking or dragging`], ["Add to the selection", "⇧ click, ⇧ drag"], ["Along an axis", "⇧ while dragging"],
     ["Frame: even, or steps of 15°", "⇧ while dragging"], ["Frame: from the centre", "Alt while dragging"], ["One side of a tangent", "Alt while dragging"],
-    ["Change the join, insert a knot", "double click"], ["Pan", "space and drag, or the wheel"], ["Zoom", `${keyWords("Mod+")}wheel, two fingers`],
+    ["Change the join, insert a knot", "double click"], ["Pan", "space and drag, or the wheel"], ["Zoom", `${keyWords("Mod")} and the wheel, two fingers`],
   ]);
   const rows = pointer.map(([what, how]) => h("tr", {}, h("th", { scope: "row" }, what), h("td", {}, how)));
   dialog("All keys", "keys", h("p", { class: "note" }, "With the pen, the arrows move it by 10, with ⇧ by 100, with Alt by 1; Enter puts a knot there, ⇧ Enter a corner; on the first knot it closes."),
