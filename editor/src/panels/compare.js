@@ -118,7 +118,7 @@ export function picture(app, curves, label, knots = [], filled = false) {
   context.fillStyle = colours.knot;
   for (const { x, y } of knots) {
     context.beginPath();
-    context.arc(x, y, 3 / viewport.scale, 0, 2 * Math.PI);
+    context.arc(x, y, (knots.length > 60 ? 1.4 : 3) / viewport.scale, 0, 2 * Math.PI);
     context.fill();
   }
   return canvas;

@@ -34,7 +34,8 @@ export const icon = (path) =>
 /** @param {number | null | undefined} x @param {number} [digits] significant digits @returns {string} */
 export function number(x, digits = 4) {
   if (x === null || x === undefined || !Number.isFinite(x)) return "–";
-  if (x === 0) return "0";
+  // What rounding leaves of nothing.
+  if (Math.abs(x) < 1e-18) return "0";
   const size = Math.abs(x);
   if (size >= 1e-3 && size < 1e6) return String(Number(x.toPrecision(digits)));
   return x.toExponential(Math.max(0, digits - 2)).replace("e+", "e");
