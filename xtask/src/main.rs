@@ -1,10 +1,13 @@
-//! What keeps the documentation current.
+//! What keeps the documentation current, and what installs the C libraries.
 //!
 //! ```sh
 //! cargo xtask pictures            # draw docs/figures/NAME-space.svg and NAME-map.svg of every family
 //! cargo xtask pictures --check    # fail if a committed one isn't what the code draws
 //! cargo xtask pictures --png DIR  # the same as PNG, to look at
 //! cargo xtask speeds              # measure the table in docs/speeds.md
+//! cargo xtask header              # write crates/faircurve-capi/include/faircurve.h
+//! cargo xtask header --check      # fail if the committed one isn't what cbindgen makes
+//! cargo xtask install-capi --prefix P   # build libspiro.so.1 and libfaircurve.so.0, install them with all that belongs to them
 //! cargo xtask npm                 # build the npm package into target/npm
 //! cargo xtask npm --test          # and test it as npm packs it, in Node and in a browser
 //! cargo xtask npm --bench         # and measure it: sizes, times beside others, a drag
@@ -16,6 +19,8 @@
 
 mod editor;
 mod family;
+mod header;
+mod install_capi;
 #[cfg(feature = "npm")]
 mod npm;
 mod pictures;
@@ -23,6 +28,15 @@ mod speeds;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+
+const USAGE: &str = "\
+there is no such command
+hint: cargo xtask pictures [--check | --png DIR]
+      cargo xtask speeds
+      cargo xtask header [--check]
+      cargo xtask install-capi --prefix DIR
+      cargo xtask npm [--test | --bench]
+      cargo xtask editor [--build | --test]";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -32,6 +46,9 @@ fn main() -> ExitCode {
         ["pictures", "--check"] => pictures::check(),
         ["pictures", "--png", folder] => pictures::draw_png(Path::new(folder)),
         ["speeds"] => speeds::write(),
+        ["header"] => header::write(),
+        ["header", "--check"] => header::check(),
+        ["install-capi", "--prefix", prefix] => install_capi::install(Path::new(prefix)),
         ["npm", rest @ ..] => npm(rest),
         ["editor", rest @ ..] => editor::run(rest),
         _ => Err(USAGE.into()),
@@ -44,9 +61,6 @@ fn main() -> ExitCode {
         }
     }
 }
-
-const USAGE: &str = "usage: cargo xtask pictures [--check | --png DIR], cargo xtask speeds, \
-                     cargo xtask npm [--test | --bench], or cargo xtask editor [--build | --test]";
 
 #[cfg(feature = "npm")]
 fn npm(arguments: &[&str]) -> Result<(), String> {

@@ -59,7 +59,7 @@ function times() {
   heading("Times, µs, closed contours of all-g4 knots (Node): solve; solve and Béziers");
   const counts = [16, 64, 256];
   const rust = native(counts);
-  console.log("knots  native         wasm           npm spiro  ratio");
+  console.log("knots  native         wasm           npm spiro      ratios");
   counts.forEach((n, i) => {
     const contours = [{ closed: true, knots: outline(n) }];
     const theirs = outline(n).map((knot) => ({ ...knot, type: "g4" }));
@@ -69,10 +69,11 @@ function times() {
       curve.beziers(0.1);
       curve.free();
     });
-    const other = time(() => spiro.spiroToBezier(theirs, true));
+    const others = [time(() => spiro.spiroToArcs(theirs, true)), time(() => spiro.spiroToBezier(theirs, true))];
+    const ratios = [others[0] / solved, others[1] / drawn].map((ratio) => ratio.toFixed(1));
     const pair = ([a, b]) => `${a.toFixed(0).padStart(5)} ${b.toFixed(0).padStart(6)}   `;
     console.log(
-      `${String(n).padStart(5)} ${pair(rust[i])} ${pair([solved, drawn])} ${other.toFixed(0).padStart(8)}  ${(other / drawn).toFixed(1)}`,
+      `${String(n).padStart(5)} ${pair(rust[i])} ${pair([solved, drawn])} ${pair(others)} ${ratios.join(" ")}`,
     );
   });
   for (const [spline, theirs] of Object.entries(RESEARCH)) {
@@ -80,6 +81,11 @@ function times() {
     const ours = time(() => solve({ contours }).contours[0].free());
     console.log(`64 knots, ${spline}, solve alone: ${ours.toFixed(0)}; spline-research ${theirs}; ratio ${(theirs / ours).toFixed(1)}`);
   }
+}
+
+function processorTime() {
+  const { user, system } = process.cpuUsage();
+  return (user + system) / 1000;
 }
 
 const FIRST = `
@@ -92,8 +98,10 @@ const FIRST = `
 async function starts() {
   heading("From nothing to the first curve, ms: middle of 15");
   const script = `${FIRST.replace("SOURCE", '"faircurve"')} console.log(performance.now() - start);`;
-  const inNode = Array.from({ length: 15 }, () => Number(execFileSync("node", ["--input-type=module", "-e", script])));
-  console.log(`Node      ${median(inNode).toFixed(1)}`);
+  const inNode = (text) => Array.from({ length: 15 }, () => Number(execFileSync("node", ["--input-type=module", "-e", text])));
+  console.log(`Node      ${median(inNode(script)).toFixed(1)}`);
+  const cpu = `${processorTime} ${script.replaceAll("performance.now()", "processorTime()")}`;
+  console.log(`Node, cpu ${median(inNode(cpu)).toFixed(1)}`);
   if (!browserPath) return;
   const inBrowser = [];
   await withPage(process.cwd(), async (page, address) => {
@@ -111,9 +119,11 @@ async function starts() {
 
 async function drags() {
   heading("A knot of 250 dragged 1000 times, solve and Béziers, ms: middle, 99th percentile, longest; from anew");
-  const cases = [{ spline: "spiro" }, { spline: "spiro", join: "g2" }, { spline: "euler" }];
-  const name = ({ spline, join }) => `${spline} ${join ?? ""}`.padEnd(10);
+  const cases = [{ spline: "spiro" }, { spline: "spiro", far: 0.8 }, { spline: "spiro", join: "g2" }, { spline: "euler" }];
+  const name = ({ spline, join, far }) => `${spline} ${join ?? ""}${far ? "far" : ""}`.padEnd(10);
   for (const each of cases) console.log(`Node      ${name(each)} ${drag(each).join(" ")}`);
+  // What this process had of the processors, collecting garbage and compiling included: on a busy machine the better number.
+  for (const each of cases) console.log(`Node, cpu ${name(each)} ${drag({ ...each, clock: processorTime }).join(" ")}`);
   if (!browserPath) return;
   await withPage(process.cwd(), async (page, address) => {
     await page.goto(`${address}/empty`);

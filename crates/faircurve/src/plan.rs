@@ -50,6 +50,8 @@ pub struct Run {
     pub knots: Vec<RunKnot>,
     /// Whether the last knot joins the first.
     pub closed: bool,
+    /// How many of the drawing's units the run's unit is: a power of two.
+    pub unit: f64,
 }
 
 impl Run {
@@ -57,6 +59,9 @@ impl Run {
     pub fn segment_count(&self) -> usize {
         if self.closed { self.knots.len() } else { self.knots.len() - 1 }
     }
+
+    /// A run without knots.
+    pub(crate) const EMPTY: Run = Run { knots: Vec::new(), closed: false, unit: 1.0 };
 
     /// The chord vector of segment `index`.
     pub fn chord(&self, index: usize) -> Vec2 {
@@ -70,7 +75,7 @@ impl Run {
         let count = if to > from { to - from } else { to + n - from };
         let mut knots: Vec<RunKnot> = (0..=count).map(|i| self.knots[(from + i) % n]).collect();
         (knots[0].turn, knots[count].turn) = (0.0, 0.0);
-        Run { knots, closed: false }
+        Run { knots, closed: false, unit: self.unit }
     }
 
     /// Fills in the turning angles.
@@ -261,6 +266,8 @@ pub struct Plan {
     /// The input's points, in user units.
     points: Vec<Point>,
     closed: bool,
+    /// How many of the drawing's units the runs' unit is.
+    unit: f64,
     nodes: Vec<Node>,
     /// For each node segment, whether it is a straight line.
     straight: Vec<bool>,
@@ -287,6 +294,7 @@ impl Plan {
         let mut plan = Plan {
             points: contour.knots.iter().map(|knot| knot.point).collect(),
             closed: contour.closed,
+            unit: 1.0 / frame.scale,
             straight: Vec::new(),
             runs: Vec::new(),
             places: Vec::new(),
@@ -353,7 +361,7 @@ impl Plan {
         let mut stretches: Vec<(usize, Run)> = Vec::new();
         if segments > 0 && breaks.is_empty() {
             let knots = (0..n).map(|node| self.interior_knot(node)).collect();
-            stretches.push((0, Run { knots, closed: true }.measured()));
+            stretches.push((0, Run { knots, closed: true, unit: self.unit }.measured()));
         }
         for (b, &from) in breaks.iter().enumerate() {
             let to = match breaks.get(b + 1) {
@@ -368,7 +376,7 @@ impl Plan {
             let mut knots = vec![self.end_knot(from, true)];
             knots.extend((1..count).map(|i| self.interior_knot((from + i) % n)));
             knots.push(self.end_knot(to, false));
-            stretches.push((from, Run { knots, closed: false }.measured()));
+            stretches.push((from, Run { knots, closed: false, unit: self.unit }.measured()));
         }
         for (first_node, run) in stretches {
             if is_straight(&run) {
@@ -822,6 +830,7 @@ fn canonical(run: Run, first_node: usize, nodes: usize) -> (Run, usize, bool) {
     let backwards = Run {
         knots: run.knots.iter().rev().map(|knot| reversed_knot(*knot)).collect(),
         closed: run.closed,
+        unit: run.unit,
     };
     let backward = marks(&backwards);
     let start_of = |run: &Run, marks: &[Mark]| match run.closed {
@@ -846,7 +855,7 @@ fn canonical(run: Run, first_node: usize, nodes: usize) -> (Run, usize, bool) {
     let knots = (0..n).map(|i| chosen.knots[(start + i) % n]).collect();
     // Knot b of the reversed list is knot n − 1 − b; the walk ends at the one after it.
     let first = if keep { a } else { (n - b) % n };
-    (Run { knots, closed: run.closed }, (first_node + first) % nodes, !keep)
+    (Run { knots, closed: run.closed, unit: run.unit }, (first_node + first) % nodes, !keep)
 }
 
 /// What a knot looks like to someone who travels the run: its join, its turning angle without sign,

@@ -69,6 +69,11 @@ impl Effort {
         Effort(if factor > 0.0 { factor.min(1e5) } else { 0.0 })
     }
 
+    /// The same effort, for segments whose evaluation takes so many times as long.
+    pub(crate) fn of_costlier(self, times: f64) -> Effort {
+        Effort(self.0 / times)
+    }
+
     /// Segment evaluations for a run of so many knots. What a short run doesn't find early, it
     /// doesn't find late: of four random knots nearly all are solved within these.
     pub(crate) fn evaluations(self, knots: usize) -> usize {

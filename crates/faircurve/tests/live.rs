@@ -135,8 +135,8 @@ fn a_drag_stays_on_its_branch() {
             canonical = anew;
         }
     }
-    println!("jumps of more than 40 units in steps of 3: {jumps:?}; the largest {longest}");
-    assert!(jumps[0] < jumps[1], "{jumps:?}");
+    // Of more than 40 units in steps of 3.
+    assert!(jumps[0] < jumps[1] / 2, "{jumps:?}, the largest {longest}");
 }
 
 /// An edit without meaning is refused, and the curve goes on from where it was.

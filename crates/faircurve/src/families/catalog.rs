@@ -10,16 +10,19 @@ use crate::spline::Spline;
 
 use super::{
     akima, bespoke, circle, euler, generated, hobby, ikarus, kappa, kurgla1, lagrange,
-    log_aesthetic, polygon, spiro,
+    log_aesthetic, mec, mvc, polygon, simec, spiro,
 };
 
 /// Every spline, in the order in which lists show them.
 #[rustfmt::skip]
 pub const ENTRIES: &[&SplineInfo] = &[
     &spiro::INFO,
+    &mvc::INFO,
     &euler::INFO,
     &log_aesthetic::INFO,
     &generated::INFO,
+    &mec::INFO,
+    &simec::INFO,
     &kurgla1::INFO,
     &hobby::INFO,
     &bespoke::INFO,

@@ -170,7 +170,7 @@ fn times_vector<const B: usize>(a: &Block<B>, x: &[f64; B]) -> [f64; B] {
 
 /// The inverse by Gauss–Jordan elimination with partial pivoting.
 #[inline(always)]
-fn invert<const B: usize>(matrix: &Block<B>) -> Block<B> {
+pub(crate) fn invert<const B: usize>(matrix: &Block<B>) -> Block<B> {
     /// Stands in for a pivot of zero, relative to the block's largest entry.
     const TINY_PIVOT: f64 = 1e-30;
     let mut a = *matrix;

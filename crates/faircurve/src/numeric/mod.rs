@@ -3,7 +3,11 @@
 //! Nothing here knows of knots or splines.
 
 pub mod block_tridiagonal;
-pub(crate) mod elastica;
+pub(crate) mod dual;
+pub mod elastica;
+#[cfg(test)]
+pub(crate) mod elastica_series;
+pub mod elliptic;
 pub mod fresnel;
 pub(crate) mod gauss_legendre;
 pub mod newton;

@@ -12,6 +12,8 @@ use kurbo::{Affine, ParamCurve, PathSeg, Point, Rect, Shape as _, Vec2};
 use num_complex::Complex64;
 
 use crate::frame::{ChordAngles, direction, turning, wrap_angle};
+use crate::numeric::elastica::Elastica;
+use crate::numeric::quadrature::integrate;
 use crate::numeric::roots::{monotone_root, roots_between};
 use crate::numeric::spiro_integral::{angle, curvature_jet, spiro_integral_between, wildness};
 
@@ -28,6 +30,8 @@ pub enum Shape {
     Line,
     /// A polynomial spiral.
     Spiral(PolynomialSpiral),
+    /// A piece of an elastica, for arc length 1, whose place of reference is its middle.
+    Elastica(Elastica),
     /// Another curve: a Bézier, a piece of a generating curve, a blend.
     Unit(UnitPiece),
     /// Several segments end to end, such as two arcs: at the joints curvature may jump.
@@ -74,10 +78,13 @@ pub struct Segment {
     end: Point,
     shape: Shape,
     length: f64,
-    /// Direction of the shape's own x axis: for a spiral, that of the middle of the arc; for a unit
+    /// Direction of the shape's own x axis: for a spiral or an elastica, that of the middle of the arc; for a unit
     /// curve, that of the whole curve's chord; for a line, everywhere.
     heading: f64,
 }
+
+/// Chords shorter than this part of the arc would be mostly rounding error.
+const SHORTEST_CHORD: f64 = 1e-9;
 
 /// Point, direction and curvature somewhere on a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,8 +119,6 @@ impl Segment {
     /// 1e-9 of its arc, and where the chord or a parameter isn't finite, the straight line stands
     /// in.
     pub fn spiral(start: Point, end: Point, spiral: PolynomialSpiral) -> Self {
-        /// Shorter chords would be mostly rounding error.
-        const SHORTEST_CHORD: f64 = 1e-9;
         let chord = end - start;
         let local = spiral.chord();
         if chord == Vec2::ZERO || !(local.length > SHORTEST_CHORD) {
@@ -122,6 +127,20 @@ impl Segment {
         let length = chord.hypot() / local.length;
         let heading = direction(chord) - local.direction;
         Segment { start, end, shape: Shape::Spiral(spiral), length, heading }
+    }
+
+    /// The piece of an elastica from s = −½ to ½, scaled and turned so that its chord is that from
+    /// `start` to `end`; the straight line where its chord is below 1e-9 of its arc, and where the
+    /// chord or a number isn't finite.
+    pub fn elastica(start: Point, end: Point, elastica: Elastica) -> Self {
+        let chord = end - start;
+        let (local, _) = elastica.centred_arc(1.0);
+        if chord == Vec2::ZERO || !(local.norm() > SHORTEST_CHORD) || !local.is_finite() {
+            return Segment::line(start, end);
+        }
+        let length = chord.hypot() / local.norm();
+        let heading = direction(chord) - local.arg();
+        Segment { start, end, shape: Shape::Elastica(elastica), length, heading }
     }
 
     /// A unit curve scaled and turned so that its chord is that from `start` to `end`; the straight
@@ -231,7 +250,7 @@ impl Segment {
         match &self.shape {
             Shape::Line => Some([0.0; 4]),
             Shape::Spiral(spiral) => Some(spiral.k),
-            Shape::Unit(_) | Shape::Chain(_) => None,
+            Shape::Elastica(_) | Shape::Unit(_) | Shape::Chain(_) => None,
         }
     }
 
@@ -240,7 +259,7 @@ impl Segment {
     pub fn beziers(&self) -> Option<Vec<PathSeg>> {
         match &self.shape {
             Shape::Line => Some(vec![PathSeg::Line(kurbo::Line::new(self.start, self.end))]),
-            Shape::Spiral(_) => None,
+            Shape::Spiral(_) | Shape::Elastica(_) => None,
             Shape::Unit(piece) => {
                 let unit = piece.curve.bezier(piece.from, piece.to)?;
                 let scale = self.scale(piece);
@@ -279,6 +298,7 @@ impl Segment {
         match &self.shape {
             Shape::Line => self.heading,
             Shape::Spiral(spiral) => self.heading + angle(spiral.k, self.local(s)),
+            Shape::Elastica(elastica) => self.heading + elastica.at(self.local(s)).direction,
             Shape::Unit(piece) => {
                 let turned = if piece.backwards { PI } else { 0.0 };
                 let place = piece.place(s / self.scale(piece));
@@ -302,6 +322,9 @@ impl Segment {
         let (mut jet, unit, flips) = match &self.shape {
             Shape::Line => return [0.0; 4],
             Shape::Spiral(spiral) => (curvature_jet(spiral.k, self.local(s)), self.length, false),
+            Shape::Elastica(elastica) => {
+                (elastica.curvature_jet(self.local(s)), self.length, false)
+            }
             Shape::Unit(piece) => {
                 let scale = self.scale(piece);
                 let jet = piece.curve.curvature_jet(piece.place(s / scale));
@@ -344,6 +367,20 @@ impl Segment {
                     self.end - self.turned(along * self.length)
                 }
             }
+            Shape::Elastica(elastica) => {
+                let local = self.local(s);
+                let along = |from: f64, to: f64| {
+                    let middle = (from + to) / 2.0;
+                    let (chord, _) = elastica.moved(middle).centred_arc(to - from);
+                    let turn = Complex64::cis(elastica.at(middle).direction);
+                    self.turned(chord * turn * self.length)
+                };
+                if local < 0.0 {
+                    self.start + along(-0.5, local)
+                } else {
+                    self.end - along(local, 0.5)
+                }
+            }
             Shape::Unit(piece) => {
                 let scale = self.scale(piece);
                 let at = |s: f64| piece.curve.point(piece.place(s));
@@ -374,6 +411,7 @@ impl Segment {
         let (length, winding) = match &self.shape {
             Shape::Line => (0.0, 0.0),
             Shape::Spiral(spiral) => (self.length, wildness(spiral.k)),
+            Shape::Elastica(elastica) => (self.length, elastica.largest_curvature()),
             Shape::Unit(piece) => (piece.curve.length() * self.scale(piece), 0.0),
             Shape::Chain(members) => {
                 return members.iter().map(Segment::rounding).fold(0.0, f64::max);
@@ -405,6 +443,12 @@ impl Segment {
             Shape::Line => Segment::line_with_direction(start, end, self.heading),
             Shape::Spiral(spiral) => {
                 let shape = Shape::Spiral(spiral.piece(self.local(from), self.local(to)));
+                let heading = self.direction((from + to) / 2.0);
+                Segment { start, end, shape, length, heading }
+            }
+            Shape::Elastica(elastica) => {
+                let (a, b) = (self.local(from), self.local(to));
+                let shape = Shape::Elastica(elastica.moved((a + b) / 2.0).scaled(b - a));
                 let heading = self.direction((from + to) / 2.0);
                 Segment { start, end, shape, length, heading }
             }
@@ -444,6 +488,7 @@ impl Segment {
                 let shape = Shape::Spiral(PolynomialSpiral::new([-k0, k1, -k2, k3]));
                 (shape, self.heading + PI)
             }
+            Shape::Elastica(elastica) => (Shape::Elastica(elastica.reversed()), self.heading + PI),
             Shape::Unit(piece) => {
                 let piece = UnitPiece { backwards: !piece.backwards, ..piece.clone() };
                 (Shape::Unit(piece), self.heading)
@@ -482,7 +527,7 @@ impl Segment {
     ) -> Segment {
         let shape = match &self.shape {
             Shape::Line => return Segment::line(start, end),
-            Shape::Spiral(_) | Shape::Unit(_) => self.shape.clone(),
+            Shape::Spiral(_) | Shape::Elastica(_) | Shape::Unit(_) => self.shape.clone(),
             Shape::Chain(members) => {
                 let last = members.len() - 1;
                 let mut next = start;
@@ -508,7 +553,7 @@ impl Segment {
                 -0.5,
                 0.5,
             )),
-            Shape::Unit(piece) => self.sign_changes(piece, |s| self.curvature(s)),
+            Shape::Elastica(_) | Shape::Unit(_) => self.sign_changes(|s| self.curvature(s)),
             Shape::Chain(members) => {
                 let mut places = places_in(members, Segment::inflections);
                 let mut before = 0.0;
@@ -532,7 +577,7 @@ impl Segment {
             Shape::Spiral(PolynomialSpiral { k }) => {
                 self.places_from_local(&roots_between(&[k[1], k[2], k[3] / 2.0], -0.5, 0.5))
             }
-            Shape::Unit(piece) => self.sign_changes(piece, |s| self.curvature_jet(s)[1]),
+            Shape::Elastica(_) | Shape::Unit(_) => self.sign_changes(|s| self.curvature_jet(s)[1]),
             Shape::Chain(members) => places_in(members, Segment::curvature_extrema),
         }
     }
@@ -543,9 +588,8 @@ impl Segment {
         match &self.shape {
             Shape::Line => Vec::new(),
             Shape::Spiral(spiral) => self.axis_extrema_of_spiral(*spiral),
-            Shape::Unit(piece) => {
-                let direction = |s: f64| self.direction(s);
-                self.sign_changes(piece, |s| (2.0 * direction(s)).sin())
+            Shape::Elastica(_) | Shape::Unit(_) => {
+                self.sign_changes(|s| (2.0 * self.direction(s)).sin())
             }
             Shape::Chain(members) => places_in(members, Segment::axis_extrema),
         }
@@ -583,9 +627,9 @@ impl Segment {
     /// cusps, sharp bends. None on lines and spirals.
     pub fn breaks(&self) -> Vec<f64> {
         match &self.shape {
-            Shape::Line | Shape::Spiral(_) => Vec::new(),
-            Shape::Unit(piece) => {
-                let stops = self.stops(piece);
+            Shape::Line | Shape::Spiral(_) | Shape::Elastica(_) => Vec::new(),
+            Shape::Unit(_) => {
+                let stops = self.stops();
                 stops[1..stops.len() - 1].to_vec()
             }
             Shape::Chain(members) => {
@@ -659,6 +703,10 @@ impl Segment {
             Shape::Spiral(PolynomialSpiral { k }) => {
                 mean_square(&[k[0], k[1], k[2] / 2.0, k[3] / 6.0]) / self.length
             }
+            Shape::Elastica(elastica) => {
+                let square = |s: f64| elastica.curvature_jet(s)[0].powi(2);
+                integrate(&square, &[-0.5, 0.5]) / self.length
+            }
             Shape::Unit(piece) => {
                 let unit = piece.curve.integral(piece.from, piece.to, &|jet| jet[0] * jet[0]);
                 (unit / self.scale(piece)).min(f64::MAX)
@@ -674,6 +722,10 @@ impl Segment {
             Shape::Line => 0.0,
             Shape::Spiral(PolynomialSpiral { k }) => {
                 mean_square(&[k[1], k[2], k[3] / 2.0]) / self.length.powi(3)
+            }
+            Shape::Elastica(elastica) => {
+                let square = |s: f64| elastica.curvature_jet(s)[1].powi(2);
+                integrate(&square, &[-0.5, 0.5]) / self.length.powi(3)
             }
             Shape::Unit(piece) => {
                 let unit = piece.curve.integral(piece.from, piece.to, &|jet| jet[1] * jet[1]);
@@ -698,6 +750,13 @@ impl Segment {
                     + half
                         * (jet[1].abs() + half * (jet[2].abs() / 2.0 + half * jet[3].abs() / 6.0));
                 bound / self.length
+            }
+            Shape::Elastica(elastica) => {
+                // κ′ = −b sin θ.
+                let (a, b) = (self.local(from), self.local(to));
+                let ends = elastica.at(a).curvature.abs().max(elastica.at(b).curvature.abs());
+                let between = ends + elastica.force().norm() * (b - a).abs() / 2.0;
+                between.min(elastica.largest_curvature()).max(ends) / self.length
             }
             Shape::Unit(piece) => {
                 let scale = self.scale(piece);
@@ -755,7 +814,8 @@ impl Segment {
     }
 
     /// Both ends and the breaks between them, as arc lengths of the segment, ascending.
-    fn stops(&self, piece: &UnitPiece) -> Vec<f64> {
+    fn stops(&self) -> Vec<f64> {
+        let Shape::Unit(piece) = &self.shape else { return vec![0.0, self.length] };
         let scale = self.scale(piece);
         let mut stops: Vec<f64> = piece
             .curve
@@ -769,9 +829,9 @@ impl Segment {
 
     /// Arc lengths at which `f` changes its sign, found between 16 places in each smooth stretch, and
     /// at the breaks between them.
-    fn sign_changes(&self, piece: &UnitPiece, f: impl Fn(f64) -> f64) -> Vec<f64> {
+    fn sign_changes(&self, f: impl Fn(f64) -> f64) -> Vec<f64> {
         const PLACES: usize = 16;
-        let stops = self.stops(piece);
+        let stops = self.stops();
         let mut places = Vec::new();
         let mut before = None;
         for ends in stops.windows(2) {
@@ -841,104 +901,114 @@ fn mean_square(coefficients: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    fn sample() -> Segment {
+    fn samples() -> [Segment; 2] {
+        let (start, end) = (Point::new(3.0, -2.0), Point::new(40.0, 25.0));
         let spiral = PolynomialSpiral::new([1.2, -3.0, 9.0, 40.0]);
-        Segment::spiral(Point::new(3.0, -2.0), Point::new(40.0, 25.0), spiral)
+        let elastica = Elastica::new(1.2, -13.0, 0.7);
+        [Segment::spiral(start, end, spiral), Segment::elastica(start, end, elastica)]
     }
 
     #[test]
     fn point_direction_and_curvature_belong_together() {
-        let segment = sample();
-        let h = 1e-4 * segment.length();
-        for i in 1..50 {
-            let s = segment.length() * f64::from(i) / 50.0;
-            let tangent = (segment.point(s + h) - segment.point(s - h)) / (2.0 * h);
-            assert!((tangent - Vec2::from_angle(segment.direction(s))).hypot() < 1e-6);
-            let turn = (segment.direction(s + h) - segment.direction(s - h)) / (2.0 * h);
-            assert!((turn - segment.curvature(s)).abs() < 1e-6);
-            let slope = (segment.curvature(s + h) - segment.curvature(s - h)) / (2.0 * h);
-            assert!((slope - segment.curvature_jet(s)[1]).abs() < 1e-6);
+        for segment in samples() {
+            let h = 1e-4 * segment.length();
+            for i in 1..50 {
+                let s = segment.length() * f64::from(i) / 50.0;
+                let tangent = (segment.point(s + h) - segment.point(s - h)) / (2.0 * h);
+                assert!((tangent - Vec2::from_angle(segment.direction(s))).hypot() < 1e-6);
+                let turn = (segment.direction(s + h) - segment.direction(s - h)) / (2.0 * h);
+                assert!((turn - segment.curvature(s)).abs() < 1e-6);
+                let slope = (segment.curvature(s + h) - segment.curvature(s - h)) / (2.0 * h);
+                assert!((slope - segment.curvature_jet(s)[1]).abs() < 1e-6);
+            }
         }
     }
 
     #[test]
     fn ends_are_exact_and_both_halves_meet() {
-        let segment = sample();
-        assert_eq!(segment.point(0.0), segment.start());
-        assert_eq!(segment.point(segment.length()), segment.end());
-        let middle = segment.length() / 2.0;
-        let gap = segment.point(middle * (1.0 - 1e-15)) - segment.point(middle);
-        assert!(gap.hypot() < 1e-13 * segment.length());
+        for segment in samples() {
+            assert_eq!(segment.point(0.0), segment.start());
+            assert_eq!(segment.point(segment.length()), segment.end());
+            let middle = segment.length() / 2.0;
+            let gap = segment.point(middle * (1.0 - 1e-15)) - segment.point(middle);
+            assert!(gap.hypot() < 1e-13 * segment.length());
+        }
     }
 
     #[test]
     fn a_piece_lies_on_the_whole() {
-        let segment = sample();
-        let piece = segment.subsegment(7.0, 31.0);
-        for i in 0..=20 {
-            let s = 24.0 * f64::from(i) / 20.0;
-            let (a, b) = (piece.at(s), segment.at(7.0 + s));
-            assert!((a.point - b.point).hypot() < 1e-12);
-            assert!((a.direction - b.direction).abs() < 1e-13);
-            assert!((a.curvature - b.curvature).abs() < 1e-13);
+        for segment in samples() {
+            let piece = segment.subsegment(7.0, 31.0);
+            for i in 0..=20 {
+                let s = 24.0 * f64::from(i) / 20.0;
+                let (a, b) = (piece.at(s), segment.at(7.0 + s));
+                assert!((a.point - b.point).hypot() < 1e-12);
+                assert!((a.direction - b.direction).abs() < 1e-13);
+                assert!((a.curvature - b.curvature).abs() < 1e-13);
+            }
+            let backwards = segment.reversed();
+            let there = segment.at(10.0);
+            let back = backwards.at(segment.length() - 10.0);
+            assert!((there.point - back.point).hypot() < 1e-12);
+            assert!((there.curvature + back.curvature).abs() < 1e-13);
         }
-        let backwards = segment.reversed();
-        let there = segment.at(10.0);
-        let back = backwards.at(segment.length() - 10.0);
-        assert!((there.point - back.point).hypot() < 1e-12);
-        assert!((there.curvature + back.curvature).abs() < 1e-13);
     }
 
     #[test]
     fn the_box_is_the_smallest() {
-        let segment = sample();
-        let bounds = segment.bounding_box();
-        let mut seen = Rect::from_points(segment.start(), segment.end());
-        for i in 0..=4000 {
-            let point = segment.point(segment.length() * f64::from(i) / 4000.0);
-            assert!(bounds.inflate(1e-12, 1e-12).contains(point));
-            seen = seen.union_pt(point);
+        for segment in samples() {
+            let bounds = segment.bounding_box();
+            let mut seen = Rect::from_points(segment.start(), segment.end());
+            for i in 0..=4000 {
+                let point = segment.point(segment.length() * f64::from(i) / 4000.0);
+                assert!(bounds.inflate(1e-12, 1e-12).contains(point));
+                seen = seen.union_pt(point);
+            }
+            assert!((bounds.area() - seen.area()).abs() < 1e-4 * bounds.area());
         }
-        assert!((bounds.area() - seen.area()).abs() < 1e-4 * bounds.area());
     }
 
     #[test]
     fn nearest_points_are_no_farther_than_any_sample() {
-        let segment = sample();
-        for target in [(0.0, 0.0), (20.0, 5.0), (45.0, 30.0), (18.0, 20.0), (-50.0, 90.0)] {
-            let target = Point::from(target);
-            let (s, distance) = segment.nearest(target, 1e-9);
-            assert!(((segment.point(s) - target).hypot() - distance).abs() < 1e-12);
-            for i in 0..=4000 {
-                let point = segment.point(segment.length() * f64::from(i) / 4000.0);
-                assert!(distance <= (point - target).hypot() + 1e-9);
+        for segment in samples() {
+            for target in [(0.0, 0.0), (20.0, 5.0), (45.0, 30.0), (18.0, 20.0), (-50.0, 90.0)] {
+                let target = Point::from(target);
+                let (s, distance) = segment.nearest(target, 1e-9);
+                assert!(((segment.point(s) - target).hypot() - distance).abs() < 1e-12);
+                for i in 0..=4000 {
+                    let point = segment.point(segment.length() * f64::from(i) / 4000.0);
+                    assert!(distance <= (point - target).hypot() + 1e-9);
+                }
             }
         }
     }
 
     #[test]
     fn energies_agree_with_quadrature() {
-        let segment = sample();
-        let (mut bending, mut variation) = (0.0, 0.0);
-        let n = 20_000;
-        for i in 0..n {
-            let jet = segment.curvature_jet(segment.length() * (f64::from(i) + 0.5) / f64::from(n));
-            bending += jet[0] * jet[0];
-            variation += jet[1] * jet[1];
+        for segment in samples() {
+            let (mut bending, mut variation) = (0.0, 0.0);
+            let n = 20_000;
+            for i in 0..n {
+                let jet =
+                    segment.curvature_jet(segment.length() * (f64::from(i) + 0.5) / f64::from(n));
+                bending += jet[0] * jet[0];
+                variation += jet[1] * jet[1];
+            }
+            let ds = segment.length() / f64::from(n);
+            assert!((bending * ds / segment.bending_energy() - 1.0).abs() < 1e-7);
+            assert!((variation * ds / segment.variation_energy() - 1.0).abs() < 1e-7);
         }
-        let ds = segment.length() / f64::from(n);
-        assert!((bending * ds / segment.bending_energy() - 1.0).abs() < 1e-7);
-        assert!((variation * ds / segment.variation_energy() - 1.0).abs() < 1e-7);
     }
 
     #[test]
     fn inflections_and_extrema_are_where_they_should_be() {
-        let segment = sample();
-        for s in segment.inflections() {
-            assert!(segment.curvature(s).abs() < 1e-14);
-        }
-        for s in segment.curvature_extrema() {
-            assert!(segment.curvature_jet(s)[1].abs() < 1e-15);
+        for segment in samples() {
+            for s in segment.inflections() {
+                assert!(segment.curvature(s).abs() < 1e-14);
+            }
+            for s in segment.curvature_extrema() {
+                assert!(segment.curvature_jet(s)[1].abs() < 1e-15);
+            }
         }
     }
 }

@@ -24,6 +24,11 @@ impl<R: TangentRule, S: SegmentShape> TwoParamSpline<R, S> {
         TwoParamSpline { info, rule, shape }
     }
 
+    /// The rule that gives tangents.
+    pub(crate) fn rule(&self) -> &R {
+        &self.rule
+    }
+
     /// The curve through the knots of a run with these tangents.
     pub(crate) fn draw(&self, run: &Run, tangents: Tangents) -> RunSolution {
         let n = run.knots.len();

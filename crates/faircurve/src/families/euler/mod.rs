@@ -69,7 +69,8 @@ impl Default for Euler {
 }
 
 impl Euler {
-    fn new(end: NaturalEnd) -> Self {
+    /// The spline with that end.
+    pub(crate) fn new(end: NaturalEnd) -> Self {
         let rule = Continuity { map: EulerSpirals, end };
         Euler { spline: TwoParamSpline::new(&INFO, rule, EulerSpirals), end }
     }

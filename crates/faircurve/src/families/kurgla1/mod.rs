@@ -4,8 +4,6 @@
 mod along;
 mod segment;
 
-use std::sync::Arc;
-
 use kurbo::Point;
 
 use super::catalog::{Claim, Params, SplineInfo};
@@ -21,7 +19,7 @@ use crate::two_param::curvature_map::{CurvatureMap, EndCurvatures, SegmentContex
 use crate::two_param::shape::{SegmentEnds, SegmentShape, StandIn};
 use crate::two_param::spline::TwoParamSpline;
 
-use segment::{LIMIT, SiMecCurve};
+use segment::LIMIT;
 pub use segment::{SiMec, fit_si_mec};
 
 /// The catalogue's row.
@@ -79,9 +77,9 @@ impl SegmentShape for SiMecs {
         end: Point,
         ends: &SegmentEnds,
     ) -> (Segment, Option<StandIn>) {
-        match fit_si_mec(ends.angles).ok().and_then(SiMecCurve::new) {
-            Some(curve) => (Segment::unit_curve(start, end, Arc::new(curve)), None),
-            None => {
+        match fit_si_mec(ends.angles) {
+            Ok(fit) => (Segment::elastica(start, end, fit.elastica()), None),
+            Err(_) => {
                 let reason = "the tangents given there would close the segment into a circle \
                               without a chord; turn them, or add a knot";
                 let stand_in = StandIn { asked: INFO.name, got: "euler", reason };

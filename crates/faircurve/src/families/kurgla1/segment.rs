@@ -3,14 +3,10 @@
 
 use std::f64::consts::PI;
 
-use kurbo::PathSeg;
-use num_complex::Complex64;
-
 use super::along::Along;
 use crate::families::euler::FitError;
 use crate::frame::{ChordAngles, EndCurvature};
-use crate::numeric::elastica::{ElasticaState, Stretch, stretches};
-use crate::segment::UnitCurve;
+use crate::numeric::elastica::Elastica;
 use crate::two_param::curvature_map::EndCurvatures;
 
 /// The angle-constrained SI-MEC on the unit chord: at x along the chord,
@@ -113,9 +109,17 @@ impl SiMec {
         None
     }
 
-    fn start(&self) -> ElasticaState {
-        let [curvature, _] = self.curvatures();
-        ElasticaState { point: Complex64::ZERO, angle: -self.angles.theta0, curvature }
+    /// The elastica for arc length 1, with its place of reference in the middle.
+    pub fn elastica(&self) -> Elastica {
+        self.from_start().moved(self.length / 2.0).scaled(self.length)
+    }
+
+    /// The elastica, with its place of reference at the segment's start.
+    pub(super) fn from_start(&self) -> Elastica {
+        let ([curvature, _], (sine, cosine)) = (self.curvatures(), self.angles.theta0.sin_cos());
+        // κ′ = b cos φ says that the force is b along +y, from the start's direction, −theta0.
+        let constant = -self.slope * sine - curvature * curvature / 2.0;
+        Elastica::new(curvature, self.slope * cosine, constant)
     }
 
     /// Curvatures at the start and the end.
@@ -132,73 +136,6 @@ impl SiMec {
             [0, 1].map(|angle| EndCurvature { num: means[angle] + end * slopes[angle], den: 0.0 })
         });
         EndCurvatures { value: self.curvatures().map(EndCurvature::finite), by_angle }
-    }
-}
-
-/// A [`SiMec`] by arc length.
-#[derive(Clone, Debug)]
-pub(super) struct SiMecCurve {
-    fit: SiMec,
-    stretches: Vec<Stretch>,
-}
-
-impl SiMecCurve {
-    /// The curve of a fitted segment.
-    pub(super) fn new(fit: SiMec) -> Option<SiMecCurve> {
-        let stretches = stretches(fit.slope, fit.start(), fit.length)?;
-        Some(SiMecCurve { fit, stretches })
-    }
-
-    fn stretch(&self, s: f64) -> (&Stretch, f64) {
-        let index = self.stretches.partition_point(|stretch| stretch.start <= s).max(1) - 1;
-        let stretch = &self.stretches[index];
-        (stretch, s - stretch.start)
-    }
-}
-
-impl UnitCurve for SiMecCurve {
-    fn length(&self) -> f64 {
-        self.fit.length
-    }
-
-    fn point(&self, s: f64) -> Complex64 {
-        if s >= self.fit.length {
-            return Complex64::ONE;
-        }
-        let (stretch, s) = self.stretch(s);
-        stretch.point(s)
-    }
-
-    fn direction(&self, s: f64) -> f64 {
-        if s >= self.fit.length {
-            return self.fit.angles.theta1;
-        }
-        let (stretch, s) = self.stretch(s);
-        stretch.angle(s)
-    }
-
-    /// κ from x, and from φ″ = b cos φ: κ′ = b cos φ, κ″ = −bκ sin φ, κ‴ = −b(κ² cos φ + κ′ sin φ).
-    fn curvature_jet(&self, s: f64) -> [f64; 4] {
-        let SiMec { mean, slope, .. } = self.fit;
-        let (sine, cosine) = self.direction(s).sin_cos();
-        let curvature = mean + slope * (self.point(s).re - 0.5);
-        let first = slope * cosine;
-        let third = -slope * (curvature * curvature * cosine + first * sine);
-        [curvature, first, -slope * curvature * sine, third]
-    }
-
-    fn breaks(&self) -> &[f64] {
-        &[]
-    }
-
-    /// Curvature changes by at most |b| a unit.
-    fn largest_curvature(&self, from: f64, to: f64) -> f64 {
-        let at = |s: f64| self.curvature_jet(s)[0].abs();
-        at(from).max(at(to)) + self.fit.slope.abs() * (to - from) / 2.0
-    }
-
-    fn bezier(&self, _from: f64, _to: f64) -> Option<PathSeg> {
-        None
     }
 }
 

@@ -1,9 +1,11 @@
 use std::f64::consts::PI;
 
+use num_complex::Complex64;
+
 use super::*;
+use crate::numeric::elastica_series::{ElasticaState, stretches};
 use crate::numeric::quadrature::integrate;
 use crate::outline::Contour;
-use crate::segment::UnitCurve;
 use crate::spline::solve;
 
 fn angles(theta0: f64, theta1: f64) -> ChordAngles {
@@ -20,13 +22,33 @@ fn square(n: i32, limit: f64) -> impl Iterator<Item = ChordAngles> {
 fn the_fit_ends_where_it_should_over_the_whole_square() {
     for angles in square(32, PI - 1e-5) {
         let fit = fit_si_mec(angles).unwrap();
-        let curve = SiMecCurve::new(fit).unwrap();
-        // The series just before the end, where the exact end doesn't yet stand in.
-        let last = fit.length * (1.0 - f64::EPSILON);
-        let off = (curve.point(last) - 1.0).norm() / fit.length;
+        let end = fit.from_start().at(fit.length);
+        let point = end.point * Complex64::cis(-angles.theta0);
+        let off = (point - 1.0).norm() / fit.length;
         assert!(off < 4e-15, "{angles:?} {off:e}");
-        assert!((curve.direction(last) - angles.theta1).abs() < 2e-14 * fit.length, "{angles:?}");
+        let direction = end.direction - angles.theta0 - angles.theta1;
+        assert!(direction.abs() < 2e-14 * fit.length, "{angles:?}");
         assert!(fit.length >= 1.0);
+    }
+}
+
+/// The segment as drawn, and the power series of φ″ = b cos φ.
+#[test]
+fn the_segment_agrees_with_the_series_of_its_equation() {
+    for angles in square(8, PI - 1e-3) {
+        let fit = fit_si_mec(angles).unwrap();
+        let [curvature, _] = fit.curvatures();
+        let start = ElasticaState { point: Complex64::ZERO, angle: -angles.theta0, curvature };
+        let segment = Segment::elastica(Point::ZERO, Point::new(1.0, 0.0), fit.elastica());
+        assert!((segment.length() - fit.length).abs() < 1e-14 * fit.length.powi(2), "{angles:?}");
+        for stretch in stretches(fit.slope, start, fit.length).unwrap() {
+            let s = stretch.start + stretch.length / 2.0;
+            let (theirs, ours) = (stretch.point(stretch.length / 2.0), segment.point(s));
+            let off = (ours.x - theirs.re).hypot(ours.y - theirs.im) / fit.length.powi(2);
+            assert!(off < 4e-15, "{angles:?} {off:e}");
+            let direction = stretch.angle(stretch.length / 2.0);
+            assert!((segment.direction(s) - direction).abs() < 2e-14 * fit.length, "{angles:?}");
+        }
     }
 }
 
@@ -123,26 +145,15 @@ fn derivatives_agree_with_differences() {
     }
 }
 
+/// Curvature is linear in the distance along the chord.
 #[test]
-fn the_curve_is_of_one_piece() {
+fn curvature_is_linear_along_the_chord() {
     let fit = fit_si_mec(angles(-2.5, 1.2)).unwrap();
-    let curve = SiMecCurve::new(fit).unwrap();
-    let h = 1e-4;
-    for i in 1..200 {
-        let s = fit.length * f64::from(i) / 200.0;
-        let (before, here, after) = (curve.point(s - h), curve.point(s), curve.point(s + h));
-        let unit = num_complex::Complex64::cis(curve.direction(s));
-        assert!(((after - before) / (2.0 * h) - unit).norm() < 1e-7);
-        let jet = curve.curvature_jet(s);
-        let bend = (curve.direction(s + h) - curve.direction(s - h)) / (2.0 * h);
-        assert!((bend - jet[0]).abs() < 1e-6);
-        assert!((jet[0] - fit.mean - fit.slope * (here.re - 0.5)).abs() < 1e-13);
-        let (up, down) = (curve.curvature_jet(s + h), curve.curvature_jet(s - h));
-        for order in 0..3 {
-            let slope = (up[order] - down[order]) / (2.0 * h);
-            assert!((slope - jet[order + 1]).abs() < 1e-4, "{s} {order}");
-        }
-        assert!(curve.largest_curvature(s, s + 0.1) >= curve.curvature_jet(s + 0.05)[0].abs());
+    let segment = Segment::elastica(Point::ZERO, Point::new(1.0, 0.0), fit.elastica());
+    for i in 0..=200 {
+        let here = segment.at(segment.length() * f64::from(i) / 200.0);
+        let expected = fit.mean + fit.slope * (here.point.x - 0.5);
+        assert!((here.curvature - expected).abs() < 1e-13);
     }
 }
 
