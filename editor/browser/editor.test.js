@@ -250,6 +250,47 @@ test("a damaged file is refused with its place, and nothing is lost", async () =
   await context.close();
 });
 
+test("comb, extrema, Béziers, plot and numbers show what the curve has", async () => {
+  const { page, problems, context } = await open(browser, site.url);
+  await page.getByRole("button", { name: "A letter" }).click();
+  await page.keyboard.press("c");
+  /** How many pixels of a canvas have a colour of the style sheet. */
+  const pixels = (/** @type {string} */ name, selector = "#canvas") => page.evaluate(async ([name, selector]) => {
+    await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
+    const canvas = /** @type {HTMLCanvasElement} */ (document.querySelector(selector));
+    const colour = getComputedStyle(canvas).getPropertyValue(`--canvas-${name}`).trim();
+    const [r, g, b] = [1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16));
+    const { data } = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d")).getImageData(0, 0, canvas.width, canvas.height);
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4) if (Math.abs(data[i] - r) + Math.abs(data[i + 1] - g) + Math.abs(data[i + 2] - b) < 60) count++;
+    return count;
+  }, [name, selector]);
+  for (const [key, colour] of [["c", "comb"], ["e", "extremum"], ["b", "bezier"]]) {
+    const before = await pixels(colour);
+    await page.keyboard.press(key);
+    const after = await pixels(colour);
+    assert.ok(after > before + 40, `${colour}: ${before}, then ${after}`);
+  }
+  const small = await pixels("comb");
+  await page.getByLabel("Length of the comb").fill("140");
+  assert.ok((await pixels("comb")) !== small, "the comb has an amplitude");
+  await page.keyboard.press("u");
+  assert.ok((await pixels("comb", "#plot canvas")) > 200, "the plot shows a curve");
+  const row = async (/** @type {string} */ caption, /** @type {string} */ name) =>
+    (await page.locator("table.numbers", { hasText: caption }).getByRole("row", { name }).first().locator("td").allTextContents());
+  await click(page, 236, 512);
+  assert.equal((await row("Continuity", "κ″")).at(-1), "none");
+  await click(page, 333, 68);
+  assert.notEqual((await row("Continuity", "direction")).at(-1), "none");
+  const cubics = async () => Number.parseInt(await page.getByRole("row", { name: "cubics" }).first().locator("td").textContent() ?? "");
+  const coarse = await cubics();
+  await page.getByLabel("Accuracy of Béziers in units").fill("0.001");
+  await page.getByLabel("Accuracy of Béziers in units").press("Enter");
+  assert.ok((await cubics()) > coarse, "a finer accuracy needs more cubics");
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
 test("a file dropped on the page is opened", async () => {
   const { page, problems, context } = await open(browser, site.url);
   await page.evaluate(() => {

@@ -24,9 +24,12 @@ export function keyWords(name) {
   return parts.map((part) => (part === "Mod" ? (isApple ? "⌘" : "Ctrl") : SIGNS[part] ?? part)).join(isApple ? "" : " ");
 }
 
-/** Whether keys belong to what is focused: to text, lists and sliders. @param {EventTarget | null} target */
-function isTyping(target) {
-  return target instanceof HTMLElement && target.matches("input, select, textarea, [contenteditable]");
+/** Whether a key belongs to what is focused: to text and lists, and arrows to sliders. @param {EventTarget | null} target @param {string} key */
+function isTyping(target, key) {
+  if (!(target instanceof HTMLElement)) return false;
+  if (target.matches("input[type=range]")) return /^(Arrow|Home|End|Page)/.test(key);
+  if (target.matches("input[type=checkbox]")) return key === " ";
+  return target.matches("input, select, textarea");
 }
 
 /** @param {App} app */
@@ -34,9 +37,10 @@ export function listenToKeys(app) {
   addEventListener("keydown", (event) => {
     if (event.defaultPrevented || document.querySelector("dialog[open]")) return;
     const name = keyName(event);
-    if (isTyping(event.target) && !name.startsWith("Mod+") && name !== "F1") return;
+    const typing = isTyping(event.target, event.key);
+    if (typing && !name.startsWith("Mod+") && name !== "F1") return;
     // In a field, undo and the like are the field's.
-    if (isTyping(event.target) && ["Mod+Z", "Mod+Y", "Mod+Shift+Z", "Mod+A", "Mod+C", "Mod+V"].includes(name)) return;
+    if (typing && ["Mod+Z", "Mod+Y", "Mod+Shift+Z", "Mod+A", "Mod+C", "Mod+V"].includes(name)) return;
     // Enter and space press buttons.
     if (event.target instanceof HTMLButtonElement && (event.key === "Enter" || event.key === " ")) return;
     const inMenu = event.target instanceof HTMLElement && event.target.closest("[popover]");

@@ -1,6 +1,10 @@
 // Starts the editor, or says why it can't be started.
 
+import { isWaiting } from "./keeping/waiting.js";
+
 try {
+  // A drawing waits to be read: what reads it loads while the rest does.
+  if (isWaiting(location)) void import("./curves/files.js").then(({ load }) => load()).catch(() => {});
   const { App } = await import("./app.js");
   const app = new App();
   await app.begin();

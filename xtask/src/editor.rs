@@ -55,7 +55,8 @@ fn preload(site: &Path) -> Result<(), String> {
     }
     links.sort();
     links.push(
-        "<link rel=\"preload\" href=\"faircurve/wasm/solver_bg.wasm\" as=\"fetch\" crossorigin>".to_owned(),
+        "<link rel=\"preload\" href=\"faircurve/wasm/solver_bg.wasm\" as=\"fetch\" crossorigin>"
+            .to_owned(),
     );
     let index = site.join("index.html");
     let page = fs::read_to_string(&index).map_err(|error| at(&index, &error))?;

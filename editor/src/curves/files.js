@@ -6,6 +6,9 @@ import { fromJson, toJson } from "../core/document.js";
 
 const formats = () => import("faircurve/formats");
 
+/** Loads it before it is needed. */
+export const load = async () => void (await formats());
+
 /**
  * Reads a file. Throws an error with a `hint` where it isn't one.
  * @param {Uint8Array | string} contents

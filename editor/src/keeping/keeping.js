@@ -8,11 +8,11 @@ import { isWritable, readable, readFile, writeFile, writePath, writeSvg } from "
 import { h } from "../panels/dom.js";
 import { forgetPicture, keepPicture, keptPicture } from "./pictures.js";
 import { Server } from "./server.js";
+import { STORE } from "./waiting.js";
 
 /** @typedef {import("../app.js").App} App */
 /** @typedef {import("../core/document.js").Document} Document */
 
-const STORE = "faircurve.drawing";
 /** Milliseconds after the last change until it is kept. */
 const CALM = 300;
 
@@ -198,6 +198,19 @@ export class Keeping {
     return { ...document, glyphs: [document.glyphs[glyph]] };
   }
 
+  /** Where the browser doesn't let the page copy, the user can. @param {string} text @param {string} words */
+  async #toClipboard(text, words) {
+    try {
+      await navigator.clipboard.writeText(text);
+      this.app.say(words);
+    } catch {
+      const area = h("textarea", { readonly: true, rows: 8, "aria-label": "To copy" });
+      area.value = text;
+      this.app.dialog("Copy this", "message", area);
+      area.select();
+    }
+  }
+
   async exportSvg() {
     try {
       const glyph = this.#glyphAlone();
@@ -210,8 +223,7 @@ export class Keeping {
 
   async copyPath() {
     try {
-      await navigator.clipboard.writeText(await writePath(this.#glyphAlone(), this.app.settings.values.accuracy));
-      this.app.say("path data is on the clipboard");
+      await this.#toClipboard(await writePath(this.#glyphAlone(), this.app.settings.values.accuracy), "path data is on the clipboard");
     } catch (error) {
       this.app.complain(error);
     }
@@ -221,8 +233,7 @@ export class Keeping {
     try {
       const link = new URL(location.pathname, location.href);
       link.hash = await toFragment(this.#glyphAlone());
-      await navigator.clipboard.writeText(link.href);
-      this.app.say(`a link with the whole drawing is on the clipboard: ${link.href.length} characters`);
+      await this.#toClipboard(link.href, `a link with the whole drawing is on the clipboard: ${link.href.length} characters`);
     } catch (error) {
       this.app.complain(error);
     }
@@ -232,12 +243,15 @@ export class Keeping {
     const { editor } = this.app;
     const contours = selectedContours(editor.state);
     const { document } = editor.committed;
-    await navigator.clipboard.writeText(toText({ ...document, glyphs: [{ name: "", layer: "", contours }] })).catch((e) => this.app.complain(e));
+    const many = contours.length === 1 ? "a contour is" : `${contours.length} contours are`;
+    await this.#toClipboard(toText({ ...document, glyphs: [{ name: "", layer: "", contours }] }), `${many} on the clipboard`);
   }
 
   async paste() {
     try {
-      const text = await navigator.clipboard.readText();
+      const text = await navigator.clipboard.readText().catch(() => {
+        throw Object.assign(new Error("the browser doesn't let this page read the clipboard"), { hint: "allow it beside the page's address, or drop a file here" });
+      });
       const { glyphs } = await readFile(text, "json");
       this.app.editor.run("paste", { contours: glyphs.flatMap(({ contours }) => contours) });
     } catch (error) {
