@@ -28,11 +28,12 @@ test("a curve in the hand ends where the kept one is", () => {
     editor.preview([["move", { dx: i, dy: -i }]]);
     store.seen(editor);
   }
-  const inHand = store.seen(editor)[0];
+  const [inHand] = store.seen(editor);
+  const { length } = inHand;
   editor.commit();
-  const kept = store.seen(editor)[0];
-  assert.notEqual(inHand, kept);
-  assert.ok(Math.abs(inHand.length - kept.length) < 1e-6 * kept.length);
+  const [kept] = store.seen(editor);
+  assert.ok(inHand.isGone && !kept.isGone, "what was in the hand gives its memory back");
+  assert.ok(Math.abs(length - kept.length) < 1e-6 * kept.length);
   editor.undo();
   assert.equal(store.seen(editor)[0], store.canonical(EXAMPLES[0].document.glyphs[0].contours[0], EXAMPLES[0].document));
 });
@@ -88,4 +89,19 @@ test("files: what can be read, what can be written, what is damaged", async () =
   assert.match(await writePath(document, 0.1), /^M/);
   await assert.rejects(readFile('{"faircurve": 1, "contours": [{"knots": [{"x": 0}]}]}', "a.json"), (/** @type {any} */ error) => /`y`/.test(error.message));
   await assert.rejects(readFile("nonsense", "a.json"));
+});
+
+test("what has no meaning in the hand is drawn straight, says why, and can be dragged out of it", () => {
+  const editor = new Editor();
+  const store = new CurveStore(packageCurves);
+  editor.run("open", { document: EXAMPLES[2].document });
+  editor.select(Selection.one(0, 2));
+  for (const dx of [1, 1e300, 2, 1e300, 1e300, 3]) {
+    editor.preview([["move", { dx, dy: 0 }]]);
+    const [curve] = store.seen(editor);
+    assert.equal(curve.spline, dx > 10 ? "polygon" : "euler");
+    assert.equal(curve.relaxed.length > 0, dx > 10);
+  }
+  editor.commit();
+  assert.equal(store.seen(editor)[0].spline, "euler");
 });

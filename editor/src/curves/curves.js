@@ -53,10 +53,15 @@ export class Solved {
     return /** @type {T} */ (this.#known.get(name));
   }
 
-  /** The contour in the hand has moved on: what is asked from now on is found without it. */
+  /** The contour in the hand has moved on: nothing can be asked any more, and the memory is given back. */
   letGo() {
+    if (this.isGone) return;
+    this.isGone = true;
     this.#beziersNow = undefined;
+    this.#curve.free();
   }
+
+  isGone = false;
 
   get spline() {
     return this.#curve.spline;
@@ -266,6 +271,7 @@ export class Following {
 export function countBeziers(curves, accuracy, show) {
   const missing = curves.filter((curve) => !curve.isQuick(accuracy));
   const tell = () => {
+    if (curves.some((curve) => curve.isGone)) return;
     const all = curves.map((curve) => curve.beziers(accuracy));
     show({ cubics: all.reduce((n, b) => n + b.cubics, 0), lines: all.reduce((n, b) => n + b.lines, 0) });
   };
@@ -276,7 +282,8 @@ export function countBeziers(curves, accuracy, show) {
   show(null);
   let timer = setTimeout(next, 400);
   function next() {
-    missing.pop()?.beziers(accuracy);
+    const curve = missing.pop();
+    if (curve && !curve.isGone) curve.beziers(accuracy);
     if (missing.length > 0) timer = setTimeout(next, 30);
     else tell();
   }
@@ -293,6 +300,18 @@ function solve(contour, { spline, params }) {
   return new Solved(contours[0]);
 }
 
+/** What is drawn where a curve would have no meaning: lines, however large, or a point. @param {Contour} contour */
+function straight({ closed, knots }) {
+  const within = (/** @type {number} */ x) => Math.max(-1e50, Math.min(1e50, x || 0));
+  const plain = knots.map(({ x, y }) => ({ x: within(x), y: within(y) }));
+  const polygon = { spline: "polygon", params: {} };
+  try {
+    return solve({ closed, knots: plain }, polygon);
+  } catch {
+    return solve({ closed: false, knots: [plain[0] ?? { x: 0, y: 0 }] }, polygon);
+  }
+}
+
 /** What the curve store needs; tests may bring their own. */
 export const packageCurves = {
   /**
@@ -305,8 +324,7 @@ export const packageCurves = {
       return solve(contour, choice);
     } catch (error) {
       if (!(error instanceof faircurve.FaircurveError)) throw error;
-      const knots = contour.knots.map(({ x, y }) => ({ x, y }));
-      const lines = solve({ ...contour, knots }, { spline: "polygon", params: {} });
+      const lines = straight(contour);
       lines.refuse({ segment: 0, asked: choice.spline, got: "polygon", reason: [error.message, error.hint].filter(Boolean).join("; ") });
       return lines;
     }

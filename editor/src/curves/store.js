@@ -66,6 +66,8 @@ export class CurveStore {
       return this.#follow(index, from, contour, choice);
     } catch {
       // What is given has no meaning at this moment; the canonical way says so.
+      this.#inHand.get(index)?.following.free();
+      this.#inHand.delete(index);
       return this.curves.solve(contour, choice);
     }
   }
