@@ -15,6 +15,8 @@ import { paramControls } from "./params.js";
 
 /** Milliseconds between updates of what takes time to measure, while something is dragged. */
 const PAUSE = 150;
+/** Knots of a glyph that isn't measured while something is dragged. */
+const LARGE = 80;
 
 /** @param {App} app */
 export function buildInspector(app) {
@@ -293,7 +295,9 @@ function contourPart(app) {
     element,
     /** @param {boolean} all */
     update(all) {
-      if (!all) return;
+      // Measuring many knots would hold up the hand; letting go measures them.
+      const isLarge = editor.contours.reduce((n, { knots }) => n + knots.length, 0) > LARGE;
+      if (!all || (editor.isPreviewing && isLarge)) return;
       const { selection } = editor;
       const curves = app.stage.curves;
       const [only] = selection.contours.length === 1 ? selection.contours : [undefined];
