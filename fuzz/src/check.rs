@@ -158,10 +158,8 @@ pub fn beziers(contour: &Contour, curve: &Curve, options: &Options) {
     finite("bound and error", [conversion.bound, conversion.error]);
     let elements = path.elements();
     assert!(elements.len() <= 2 + MOST_PIECES * contour.segment_count(), "{}", elements.len());
-    assert_eq!(
-        elements.len(),
-        1 + conversion.cubics + conversion.lines + usize::from(contour.closed)
-    );
+    let segments = conversion.cubics + conversion.quadratics + conversion.lines;
+    assert_eq!(elements.len(), 1 + segments + usize::from(contour.closed));
     assert_eq!(elements.first(), Some(&PathEl::MoveTo(contour.knots[0].point)));
     assert_eq!(elements.last() == Some(&PathEl::ClosePath), contour.closed);
     if !options.span_knots {
@@ -192,8 +190,8 @@ fn deviation(curve: &Curve, path: &BezPath, bound: f64) {
     let Some(bounds) = curve.bounding_box() else { return };
     let size = bounds.width().max(bounds.height()).max(largest_coordinate(bounds.center()));
     let length = curve.length();
-    let largest_kappa =
-        curve.segments().iter().flat_map(Segment::kappa).fold(0.0f64, |a, k| a.max(k.abs()));
+    let kappa = curve.segments().iter().filter_map(Segment::kappa).flatten();
+    let largest_kappa = kappa.fold(0.0f64, |a, k| a.max(k.abs()));
     // Nearest points are no better than this.
     let resolution = 1e-11 * (size + length);
     if largest_kappa > 1e3 {

@@ -184,13 +184,13 @@ pub(crate) fn run(rounds: usize) -> Report {
     let mut rows = Vec::new();
     let mut alarms = Vec::new();
     let mut sums = [0usize; 4];
-    let (mut log_ratio, mut largest_ratio) = (0.0, 0.0f64);
+    let (mut log_ratio, mut log_free, mut largest_ratio) = (0.0, 0.0, 0.0f64);
     for (name, curve) in curves() {
         for decade in 1..=6 {
             let accuracy = 10f64.powi(-decade);
             let options = Options { span_knots: true, ..Options::new(accuracy) };
             let free = Options { free_joints: true, ..options.clone() };
-            let (ours, free) = (convert(&curve, &options), convert(&curve, &free));
+            let (ours, freely) = (convert(&curve, &options), convert(&curve, &free));
             let (bisect, opt) =
                 (fit_to_bezpath(&curve, accuracy), fit_to_bezpath_opt(&curve, accuracy));
             let [time, bisect_time] = paired(
@@ -198,11 +198,16 @@ pub(crate) fn run(rounds: usize) -> Report {
                 || drop(black_box(convert(&curve, &options))),
                 || drop(black_box(fit_to_bezpath(&curve, accuracy))),
             );
+            let [free_time, _] = paired(
+                rounds,
+                || drop(black_box(convert(&curve, &free))),
+                || drop(black_box(convert(&curve, &options))),
+            );
             let [error, free_error, bisect_error, opt_error] =
-                [&ours.path, &free.path, &bisect, &opt]
+                [&ours.path, &freely.path, &bisect, &opt]
                     .map(|path| true_error(&curve, path, POINTS));
             for (what, error, bound) in
-                [("joints on the curve", error, ours.bound), ("free", free_error, free.bound)]
+                [("joints on the curve", error, ours.bound), ("free", free_error, freely.bound)]
             {
                 if !(error <= bound && bound <= accuracy) {
                     alarms.push(format!(
@@ -210,10 +215,11 @@ pub(crate) fn run(rounds: usize) -> Report {
                     ));
                 }
             }
-            let ratio = (ours.bound / error).max(free.bound / free_error);
+            let ratio = (ours.bound / error).max(freely.bound / free_error);
             largest_ratio = largest_ratio.max(ratio);
             log_ratio += (time / bisect_time).ln();
-            let counts = [ours.cubics, free.cubics, cubics(&opt), cubics(&bisect)];
+            log_free += (free_time / bisect_time).ln();
+            let counts = [ours.cubics, freely.cubics, cubics(&opt), cubics(&bisect)];
             for (sum, count) in sums.iter_mut().zip(counts) {
                 *sum += count;
             }
@@ -230,11 +236,12 @@ pub(crate) fn run(rounds: usize) -> Report {
                 format!("{:.3}", bisect_error / accuracy),
                 format!("{:.1}", time * 1e6),
                 format!("{:.1}", bisect_time * 1e6),
+                format!("{:.1}", free_time * 1e6),
                 format!("{:.3}", time / bisect_time),
             ]);
         }
     }
-    let mean = (log_ratio / rows.len() as f64).exp();
+    let [mean, free_mean] = [log_ratio, log_free].map(|log| (log / rows.len() as f64).exp());
     let header = [
         "curve",
         "accuracy",
@@ -248,12 +255,13 @@ pub(crate) fn run(rounds: usize) -> Report {
         "bisect true/acc.",
         "µs",
         "bisect µs",
+        "free µs",
         "ratio",
     ];
     let text = format!(
         "Cubics for curves of arc length 1000; opt and bisect are kurbo's fit_to_bezpath_opt and fit_to_bezpath\n\n{}\n\
          cubics: ours {}, with free joints {}, opt {}, bisect {}; largest bound/true {largest_ratio:.4}; \
-         time over bisect's, geometric mean {mean:.3}\n",
+         time over bisect's, geometric mean {mean:.3}, with free joints {free_mean:.3}\n",
         table(header, rows),
         sums[0],
         sums[1],
@@ -262,12 +270,13 @@ pub(crate) fn run(rounds: usize) -> Report {
     );
     let json = json!({
         "cubics": sums[0], "free_joints": sums[1], "opt": sums[2], "bisect": sums[3],
-        "largest_bound_over_true": largest_ratio, "time_over_bisect": mean, "alarms": alarms,
+        "largest_bound_over_true": largest_ratio, "time_over_bisect": mean,
+        "free_time_over_bisect": free_mean, "alarms": alarms,
     });
     Report { text, json, notable: Vec::new(), alarms }
 }
 
-/// Random pieces of spirals: one segment each, from the smooth to the wound up, small and large, near and far from the origin.
+/// Random pieces of spirals, every other case with free joints: one segment each, from the smooth to the wound up, small and large, near and far from the origin.
 pub(crate) fn random(cases: usize, seed: u64) -> Report {
     let mut state = seed.wrapping_mul(2).wrapping_add(1);
     let mut random = move || {
@@ -299,7 +308,8 @@ pub(crate) fn random(cases: usize, seed: u64) -> Report {
             false,
         );
         let accuracy = size * 10f64.powf(-1.0 - 7.0 * random());
-        let ours = convert(&curve, &Options::new(accuracy));
+        let options = Options { free_joints: case % 2 == 1, ..Options::new(accuracy) };
+        let ours = convert(&curve, &options);
         cubics += ours.cubics;
         over += usize::from(ours.bound > accuracy);
         let error = true_error(&curve, &ours.path, 24);

@@ -25,14 +25,26 @@ struct Tally {
     cubics: usize,
     /// The largest error, measured.
     error: f64,
+    /// Contours with an error beyond twice the accuracy.
+    astray: usize,
     bound: Option<f64>,
     seconds: f64,
 }
 
 impl Tally {
-    fn add(&mut self, curve: &Curve, path: &BezPath, bound: Option<f64>, seconds: f64) {
+    /// `accuracy`: what was asked for.
+    fn add(
+        &mut self,
+        curve: &Curve,
+        path: &BezPath,
+        accuracy: f64,
+        bound: Option<f64>,
+        seconds: f64,
+    ) {
+        let error = true_error(curve, path, POINTS);
         self.cubics += cubics(path);
-        self.error = self.error.max(true_error(curve, path, POINTS));
+        self.error = self.error.max(error);
+        self.astray += usize::from(error > 2.0 * accuracy);
         if let Some(bound) = bound {
             self.bound = Some(self.bound.unwrap_or(0.0).max(bound));
         }
@@ -81,7 +93,9 @@ pub(crate) fn run(contours: &[FontContour], with_opt: bool) -> Result<Report, Fa
         }
         *counted.entry(font).or_default() += 1;
         let mut add = |row: usize, who, path: &BezPath, bound, seconds| {
-            tallies.entry((font.clone(), row, who)).or_default().add(&curve, path, bound, seconds);
+            let accuracy = if row == 0 { f64::INFINITY } else { ACCURACIES[row - 1] };
+            let tally = tallies.entry((font.clone(), row, who)).or_default();
+            tally.add(&curve, path, accuracy, bound, seconds);
         };
         add(0, "libspiro", &theirs, None, 0.0);
         for (row, accuracy) in ACCURACIES.into_iter().enumerate() {
@@ -108,7 +122,7 @@ pub(crate) fn run(contours: &[FontContour], with_opt: bool) -> Result<Report, Fa
             }
         }
     }
-    let rows: Vec<[String; 7]> = tallies
+    let rows: Vec<[String; 9]> = tallies
         .iter()
         .map(|((font, row, who), tally)| {
             let accuracy =
@@ -120,12 +134,23 @@ pub(crate) fn run(contours: &[FontContour], with_opt: bool) -> Result<Report, Fa
                 (*who).to_owned(),
                 tally.cubics.to_string(),
                 tally.bound.map_or("–".to_owned(), |bound| format!("{bound:.4}")),
-                format!("{:.4} / {:.1}", tally.error, tally.seconds * 1e3),
+                format!("{:.4}", tally.error),
+                tally.astray.to_string(),
+                if *row == 0 { "–".to_owned() } else { format!("{:.1}", tally.seconds * 1e3) },
             ]
         })
         .collect();
     let json = json!(rows);
-    let header =
-        ["font", "contours", "accuracy", "who", "cubics", "bound", "true error / milliseconds"];
+    let header = [
+        "font",
+        "contours",
+        "accuracy",
+        "who",
+        "cubics",
+        "bound",
+        "true error",
+        "contours off by twice the accuracy",
+        "milliseconds",
+    ];
     Ok(Report { text: table(header, rows), json, notable: Vec::new(), alarms })
 }

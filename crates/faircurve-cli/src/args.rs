@@ -89,7 +89,7 @@ pub(crate) struct SolveArgs {
     #[arg(long, help_heading = "Béziers")]
     pub(crate) span_knots: bool,
 
-    /// Let ends of Béziers leave the curve, within the accuracy, where that needs fewer.
+    /// Let ends of Béziers leave the curve, within the accuracy, where that needs fewer. The path stays smooth.
     #[arg(long, help_heading = "Béziers")]
     pub(crate) free_joints: bool,
 

@@ -14,7 +14,9 @@ use std::path::{Path, PathBuf};
 use faircurve::convert::{
     Conversion, Cuts, Fit, Metric, Options, convert, fit_single, local_minima,
 };
-use faircurve::kurbo::{BezPath, CubicBez, ParamCurve, ParamCurveDeriv, PathEl, Point, Vec2};
+use faircurve::kurbo::{
+    BezPath, CubicBez, ParamCurve, ParamCurveArclen, ParamCurveDeriv, PathEl, Point, Vec2,
+};
 use faircurve::{Curve, PolynomialSpiral, Segment, catalog};
 use faircurve_format::Kind;
 
@@ -184,19 +186,23 @@ fn side_by_side(segment: &Segment, panels: &[(String, CubicBez)]) -> String {
 }
 
 /// Root mean square of the angle error over both arms (figure 9.5), sampled.
+///
+/// The valley along which the arc lengths agree is narrow: the grid follows it, by the left arm's share and the
+/// sum of both, in steps that grow with the distance from the valley.
 fn isolines(segment: &Segment) -> String {
-    const STEPS: usize = 90;
+    const SHARES: usize = 160;
+    const SUMS: usize = 80;
     const SIDE: f64 = 420.0;
     let length = segment.length();
     let most = 0.75 * length;
     let t0 = Vec2::from_angle(segment.direction(0.0));
     let t1 = Vec2::from_angle(segment.direction(length));
-    let cubic = |a: f64, b: f64| {
+    let cubic = |[a, b]: [f64; 2]| {
         let (p0, p3) = (segment.start(), segment.end());
         CubicBez::new(p0, p0 + t0 * a, p3 - t1 * b, p3)
     };
-    let error = |a: f64, b: f64| {
-        let rows = along(&cubic(a, b), 60);
+    let error = |arms: [f64; 2]| {
+        let rows = along(&cubic(arms), 200);
         let mut sum = 0.0;
         for pair in rows.windows(2) {
             let share = (pair[0][0] + pair[1][0]) / 2.0;
@@ -206,32 +212,56 @@ fn isolines(segment: &Segment) -> String {
         }
         sum.sqrt().ln()
     };
-    let arm = |i: usize| most * (0.06 + 0.94 * i as f64 / STEPS as f64);
-    let values: Vec<Vec<f64>> =
-        (0..=STEPS).map(|i| (0..=STEPS).map(|j| error(arm(i), arm(j))).collect()).collect();
-    let place = |a: f64, b: f64| Point::new(40.0 + SIDE * a / most, 20.0 + SIDE * (1.0 - b / most));
-    let mut svg = Svg::new(SIDE + 60.0, SIDE + 60.0);
+    let arms = |share: f64, sum: f64| [share * sum, (1.0 - share) * sum];
+    // The sum at which the cubic is as long as the segment.
+    let valley = |share: f64| {
+        let (mut low, mut high) = (0.0, 2.0 * length);
+        for _ in 0..40 {
+            let sum = (low + high) / 2.0;
+            if cubic(arms(share, sum)).arclen(1e-9) < length { low = sum } else { high = sum }
+        }
+        low
+    };
+    let grid: Vec<Vec<([f64; 2], f64)>> = (0..=SHARES)
+        .map(|i| {
+            let share = 0.02 + 0.96 * i as f64 / SHARES as f64;
+            let middle = valley(share);
+            let row = (0..=SUMS).map(|j| {
+                let away = 2.0 * j as f64 / SUMS as f64 - 1.0;
+                let arms = arms(share, middle * (1.0 + 0.45 * (6.0 * away).sinh() / 6f64.sinh()));
+                (arms, error(arms))
+            });
+            row.collect()
+        })
+        .collect();
+    let place =
+        |[a, b]: [f64; 2]| Point::new(40.0 + SIDE * a / most, 20.0 + SIDE * (1.0 - b / most));
+    let is_shown = |p: &Point| p.x <= 40.0 + SIDE && p.y >= 20.0;
+    let mut svg = Svg::new(SIDE + 70.0, SIDE + 65.0);
+    let (origin, right, top) = (place([0.0; 2]), place([most, 0.0]), place([0.0, most]));
+    svg.line(&[top, origin, right], GREY, 0.7);
+    // Where the arc lengths agree.
+    let line: Vec<Point> = grid.iter().map(|row| place(row[SUMS / 2].0)).collect();
+    svg.line(&line, GREY, 1.5);
     for level in 0..9 {
         let value = (2e-4f64).ln() + f64::from(level) * 2f64.ln();
         let mut d = String::new();
-        for i in 0..STEPS {
-            for j in 0..STEPS {
+        for i in 0..SHARES {
+            for j in 0..SUMS {
                 // Where the level crosses the edges of a cell.
-                let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+                let corners = [grid[i][j], grid[i + 1][j], grid[i + 1][j + 1], grid[i][j + 1]];
                 let mut crossings = Vec::new();
                 for c in 0..4 {
-                    let ((i0, j0), (i1, j1)) = (corners[c], corners[(c + 1) % 4]);
-                    let (v0, v1) = (values[i0][j0] - value, values[i1][j1] - value);
+                    let ((from, v0), (to, v1)) = (corners[c], corners[(c + 1) % 4]);
+                    let (v0, v1) = (v0 - value, v1 - value);
                     if (v0 < 0.0) != (v1 < 0.0) {
-                        let along = v0 / (v0 - v1);
-                        crossings
-                            .push(place(arm(i0), arm(j0)).lerp(place(arm(i1), arm(j1)), along));
+                        crossings.push(place(from).lerp(place(to), v0 / (v0 - v1)));
                     }
                 }
-                for pair in crossings.chunks_exact(2) {
+                for pair in crossings.chunks_exact(2).filter(|pair| pair.iter().all(is_shown)) {
                     let _ = write!(
                         d,
-                        "M{:.0},{:.0}L{:.0},{:.0}",
+                        "M{:.1},{:.1}L{:.1},{:.1}",
                         pair[0].x, pair[0].y, pair[1].x, pair[1].y
                     );
                 }
@@ -242,13 +272,14 @@ fn isolines(segment: &Segment) -> String {
     }
     for fit in local_minima(segment, Metric::SquaredAngle) {
         let (a, b) = ((fit.cubic.p1 - fit.cubic.p0).hypot(), (fit.cubic.p3 - fit.cubic.p2).hypot());
-        svg.dot(place(a, b), BLUE);
+        svg.dot(place([a, b]), BLUE);
     }
     svg.words(
         40.0,
         SIDE + 40.0,
-        "left arm →, right arm ↑; isolines of the root mean square angle, each twice the last",
+        "left arm →, right arm ↑; isolines of the root mean square angle,",
     );
+    svg.words(40.0, SIDE + 55.0, "each twice the last; grey: equal arc length; blue: local minima");
     svg.finish()
 }
 
@@ -315,7 +346,7 @@ fn four_levels(levels: &[Vec<Conversion>; 4]) -> String {
 
 /// Largest distance against the number of equal pieces of one Euler spiral.
 fn orders() -> String {
-    let mut svg = Svg::new(460.0, 360.0);
+    let mut svg = Svg::new(490.0, 355.0);
     let segment = euler(0.0, 2.5);
     let place = |n: f64, error: f64| {
         Point::new(50.0 + 340.0 * n.log2() / 6.0, 20.0 + 300.0 * -error.log10() / 13.0)
@@ -329,21 +360,34 @@ fn orders() -> String {
                 .map(|j| segment.subsegment(part * f64::from(j), part * f64::from(j + 1)))
                 .map(|piece| fit_single(&piece, Metric::Distance, fit).error)
                 .fold(0.0, f64::max);
-            points.push(place(f64::from(n), worst.min(1.0)));
+            // One or two cubics for all of it are hopeless by some fits.
+            if worst <= 1.0 {
+                points.push(place(f64::from(n), worst));
+            }
         }
         svg.line(&points, if fit == Fit::Optimal { BLUE } else { INK }, 1.2);
         for point in &points {
             svg.dot(*point, if fit == Fit::Optimal { BLUE } else { INK });
         }
         let last = points[points.len() - 1];
-        let y = last.y + [-6.0, 4.0, -4.0, 12.0][i];
+        let y = last.y + [4.0, 0.0, 10.0, 6.0][i];
         svg.words(last.x + 4.0, y, fit.name());
     }
+    svg.line(&[place(1.0, 1.0), place(1.0, 1e-12), place(64.0, 1e-12)], GREY, 0.7);
     for decade in (0..=12).step_by(2) {
-        svg.words(8.0, place(1.0, 10f64.powi(-decade)).y + 4.0, &format!("1e-{decade}"));
+        svg.words(
+            8.0,
+            place(1.0, 10f64.powi(-decade)).y + 4.0,
+            &if decade == 0 { "1".to_owned() } else { format!("1e-{decade}") },
+        );
     }
     for n in [1, 2, 4, 8, 16, 32, 64] {
-        svg.words(place(f64::from(n), 1.0).x - 4.0, 352.0, &n.to_string());
+        svg.words(place(f64::from(n), 1.0).x - 4.0, 318.0, &n.to_string());
     }
+    svg.words(
+        50.0,
+        340.0,
+        "largest distance against the number of equal pieces of κ = 2s, 0 ≤ s ≤ 2.5",
+    );
     svg.finish()
 }

@@ -133,6 +133,21 @@ mod splines {
     }
 
     #[divan::bench(args = KNOTS)]
+    fn mec_closed(bencher: Bencher<'_, '_>, count: usize) {
+        bench(bencher, "mec", &jittered_circle(count, true, Join::G2));
+    }
+
+    #[divan::bench(args = KNOTS)]
+    fn simec_closed(bencher: Bencher<'_, '_>, count: usize) {
+        bench(bencher, "simec", &jittered_circle(count, true, Join::G2));
+    }
+
+    #[divan::bench(args = KNOTS)]
+    fn mvc_closed_g4(bencher: Bencher<'_, '_>, count: usize) {
+        bench(bencher, "mvc", &jittered_circle(count, true, Join::G4));
+    }
+
+    #[divan::bench(args = KNOTS)]
     fn spiro_open_g2(bencher: Bencher<'_, '_>, count: usize) {
         bench(bencher, "spiro", &jittered_circle(count, false, Join::G2));
     }

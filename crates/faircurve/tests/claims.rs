@@ -105,6 +105,7 @@ fn wrong_claims_are_contradicted() {
 fn grades_are_those_of_the_thesis() {
     use Grade::{Minus, Plus, PlusPlus, PlusPlusPlus};
     for (name, extensionality, roundness, locality) in [
+        ("mec", PlusPlusPlus, Minus, Plus),
         ("euler", PlusPlusPlus, PlusPlusPlus, Plus),
         ("log-aesthetic", PlusPlusPlus, PlusPlusPlus, PlusPlus),
         ("hobby", Minus, Minus, Plus),

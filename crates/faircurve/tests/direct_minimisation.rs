@@ -151,7 +151,8 @@ fn eliminated(mut rows: Vec<Vec<f64>>) -> Vec<f64> {
 
 #[test]
 fn chains_of_struts_converge_to_the_splines() {
-    let objectives: [(&str, Objective, fn(&Solution) -> f64); 3] = [
+    type Value = fn(&Solution) -> f64;
+    let objectives: [(&str, Objective, Value); 3] = [
         ("mec", energy, |s| s.curve.bending_energy()),
         ("simec", energy_times_length, |s| s.curve.bending_energy() * s.curve.length()),
         ("mvc", variation, |s| s.curve.variation_energy()),

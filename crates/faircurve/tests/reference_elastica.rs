@@ -187,12 +187,15 @@ fn how_far_the_minimum_energy_curve_is_from_the_circle() {
     for row in list(&file["mec_roundness"]["rows"]) {
         let n = row["n"].as_u64().unwrap() as usize;
         let off = radius(n, "mec") - 1.0 - number(&row["max_radius_minus_1"]);
-        assert!(off.abs() < 1e-13, "{n}: {off:e}");
+        // The file's own error grows with n, to 2.3e-13 at 48, as 40 digits say.
+        assert!(off.abs() < 3e-13, "{n}: {off:e}");
     }
+    let off = radius(48, "mec") - 1.0 - 3.827_002_220_056_439_4e-7;
+    assert!(off.abs() < 2e-15, "{off:e}");
     let order = ((radius(32, "mec") - 1.0) / (radius(48, "mec") - 1.0)).ln() / 1.5f64.ln();
     assert!((order - 4.0).abs() < 0.01, "{order}");
     // Half turns are the bound: there the two segments have the inflections at their ends.
-    assert!(fit_mec(ChordAngles::new(FRAC_PI_2 - 1e-6, FRAC_PI_2 - 1e-6), 0.0).is_ok());
+    assert!(fit_mec(ChordAngles::new(FRAC_PI_2, FRAC_PI_2), 0.0).is_ok());
 }
 
 #[test]
@@ -233,7 +236,7 @@ fn minimum_variation_splines() {
     let file = load("mvc.json");
     for (name, set) in file["splines"].as_object().unwrap() {
         let solution = solved(&contour(set), "mvc");
-        println!("{name} {} {}", solution.report.residual, solution.report.iterations);
+        assert!(solution.report.residual < 1e-12, "{name}");
         let curvatures = numbers(&set["curvature"]);
         let slopes = numbers(&set["dcurvature"]);
         let size = curvatures.iter().fold(0.0f64, |most, k| most.max(k.abs()));

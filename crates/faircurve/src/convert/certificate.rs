@@ -101,11 +101,13 @@ const MOST_HALVINGS: u32 = 7;
 /// A bound of the distance between the cubic of these arms and its piece of the stretch, in user units;
 /// infinite where the cubic doesn't run along the piece.
 ///
-/// `is_hopeless`: the cubic is too far off to be worth a sharp bound.
+/// `is_hopeless`: the cubic is too far off to be worth a sharp bound. Nor need one be sharp that can't be as small as
+/// `limit`.
 pub(super) fn distance_bound(
     stretch: &Stretch<'_>,
     piece: &Piece,
     fit: &Fit,
+    limit: f64,
     is_hopeless: bool,
 ) -> f64 {
     let halvings = if is_hopeless { 1 } else { MOST_HALVINGS };
@@ -120,7 +122,10 @@ pub(super) fn distance_bound(
             });
             bound_on_series(series, &cubic, [0.0, 1.0], params, halvings)
         }
-        None => bound_over_segments(stretch, piece, &LocalCubic::with_arms(piece, fit.arms)),
+        None => {
+            let cubic = LocalCubic::with_arms(piece, fit.arms);
+            bound_over_segments(stretch, piece, &cubic, limit / piece.half)
+        }
     };
     bound * piece.half + rounding(stretch, piece)
 }
@@ -268,15 +273,13 @@ fn difference(series: &Series, cubic: &LocalCubic, phi: &[f64; 9]) -> Polynomial
 
 /// From powers of x to Chebyshev's polynomials, by Horner's rule: x·T₀ = T₁, x·Tⱼ = (Tⱼ₋₁ + Tⱼ₊₁)/2.
 fn to_chebyshev<const N: usize>(powers: [f64; N]) -> [f64; N] {
-    // One more than is needed on both sides, so that the inner loop has no cases.
     let mut c = [0.0; N];
-    for (degree, power) in powers.into_iter().rev().enumerate() {
+    for power in powers.into_iter().rev() {
         let old = c;
         for j in 1..N {
             let above = if j + 1 < N { old[j + 1] } else { 0.0 };
             c[j] = 0.5 * (old[j - 1] + above);
         }
-        let _ = degree;
         if N > 1 {
             c[1] += 0.5 * old[0];
             c[0] = 0.5 * old[1];
@@ -377,12 +380,18 @@ pub(super) fn bound_by_curvature_of(stretch: &Stretch<'_>, piece: &Piece, fit: &
         params: [0.0, 1.0],
     };
     let origin = stretch.joint(piece.from).point;
-    bound_by_curvature(&part, &cubic, origin, piece.half) * piece.half + rounding(stretch, piece)
+    bound_by_curvature(&part, &cubic, origin, piece.half, f64::INFINITY) * piece.half
+        + rounding(stretch, piece)
 }
 
 /// A piece over several segments, or on one that isn't a spiral: each part by itself, the feet at the
 /// knots being shared.
-fn bound_over_segments(stretch: &Stretch<'_>, piece: &Piece, cubic: &LocalCubic) -> f64 {
+fn bound_over_segments(
+    stretch: &Stretch<'_>,
+    piece: &Piece,
+    cubic: &LocalCubic,
+    limit: f64,
+) -> f64 {
     let mut bound = 0.0f64;
     let origin = stretch.joint(piece.from).point;
     let mut start = 0.0;
@@ -425,7 +434,7 @@ fn bound_over_segments(stretch: &Stretch<'_>, piece: &Piece, cubic: &LocalCubic)
                 bound_on_series(&series, &local, [start, end], params, MOST_HALVINGS) * unit
                     / piece.half
             }
-            _ => bound_by_curvature(&part, cubic, origin, piece.half),
+            _ => bound_by_curvature(&part, cubic, origin, piece.half, limit),
         });
         start = end;
     }
@@ -447,12 +456,20 @@ struct Part<'a> {
 }
 
 /// The bound for segments that answer only for the size of their curvature, in half lengths of the piece.
-fn bound_by_curvature(part: &Part<'_>, cubic: &LocalCubic, origin: kurbo::Point, half: f64) -> f64 {
+fn bound_by_curvature(
+    part: &Part<'_>,
+    cubic: &LocalCubic,
+    origin: kurbo::Point,
+    half: f64,
+    limit: f64,
+) -> f64 {
     /// Parts are halved where what interpolation adds exceeds this share of the largest difference;
     /// the bound is that much too large.
     const SHARP: f64 = 0.005;
     /// At most so many parts: 4096 of them resolve a deviation of 1e-7 of the piece.
     const MOST_PARTS: usize = 4096;
+    /// With so many the bound is fair where the limit can't be met.
+    const FEW_PARTS: usize = 64;
     let Part { segment, from, to, params } = *part;
     let at = |s: f64, guess: f64, limits: [f64; 2]| {
         let (point, tangent) = in_frame(segment, s, origin, half);
@@ -487,6 +504,11 @@ fn bound_by_curvature(part: &Part<'_>, cubic: &LocalCubic, origin: kurbo::Point,
     for parts in 1.. {
         let Some(top) = heap.pop() else { break };
         let Bounded { bound, slack, from, to, params: [t0, t1], errors } = top;
+        // Slack falls with the square of a part's length: so many like this one would get below the limit.
+        let needed = (slack / (limit - largest)).sqrt() * (part.to - part.from) / (to - from);
+        if parts > FEW_PARTS && (largest > limit || needed > MOST_PARTS as f64) {
+            return bound;
+        }
         // Rounding: below 1e-14 nothing gets sharper. `!` so that NaN ends here, too.
         if !(slack > SHARP * largest) || slack < 1e-14 || parts >= MOST_PARTS || bound.is_nan() {
             return if bound.is_nan() { f64::INFINITY } else { bound };

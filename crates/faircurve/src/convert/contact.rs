@@ -13,6 +13,7 @@ use kurbo::common::{solve_cubic, solve_quadratic};
 use num_complex::Complex64;
 
 use super::piece::Piece;
+use super::tuning::NEARLY_REAL;
 
 /// q of the cubic that minimises the largest distance: the root of 4(1 − q)³ = 27q.
 pub(super) const MINIMAX_Q: f64 = 0.105_892_543;
@@ -101,10 +102,6 @@ pub(super) fn expansions(kappa: [f64; 4]) -> Starts {
     }
     starts
 }
-
-/// y² up to which complex roots are tried: half a unit of α in y, half of what real roots differ by where there are three
-/// good ones. Larger values try more in vain; smaller ones lose local minima of long pieces.
-const NEARLY_REAL: f64 = 0.25;
 
 /// α to a start, if it makes sense.
 fn expansion([a, b, c, d, e]: [f64; 5], k0: f64, alpha: f64) -> Option<Start> {

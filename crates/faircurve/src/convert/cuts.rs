@@ -6,6 +6,7 @@ use crate::numeric::roots::monotone_root;
 
 use super::fitter::{Candidate, Cubic, Fitter};
 use super::options::Cuts;
+use super::tuning::{AIM, CLOSE, FITS, LAW_IS_CLOSE, NO_ZERO_NEAR};
 
 /// The cubics for what lies between two places.
 pub(super) fn cut(fitter: &Fitter<'_>, cuts: Cuts, from: f64, to: f64) -> Vec<Cubic> {
@@ -18,72 +19,6 @@ pub(super) fn cut(fitter: &Fitter<'_>, cuts: Cuts, from: f64, to: f64) -> Vec<Cu
             halving(fitter, from, to, |from, to| fitter.stretch.half_of_bend(from, to))
         }
     }
-}
-
-/// Offsets of a joint that are tried.
-const SIDES: usize = 3;
-
-/// Greedy, with joints beside the curve: the deviation between two joints that are on the side to which E₆ turns it is 0.70
-/// times as large, and 6 % fewer cubics are enough.
-///
-/// Of all ways to reach a joint with k cubics, for each of three offsets only the farthest is kept: a dynamic programme
-/// that is exact where the error is monotone.
-pub(super) fn with_free_joints(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
-    /// Offsets as parts of the largest: none first, which an end needs. Halves besides save no cubic more.
-    const OFFSETS: [f64; SIDES] = [0.0, 1.0, -1.0];
-    /// The part of the accuracy that an offset is: as large as the deviation between may be, less rounding.
-    const LARGEST: f64 = 0.985;
-    let plain = greedy(fitter, from, to);
-    let offset = |side: usize| OFFSETS[side] * LARGEST * fitter.accuracy;
-    // For each number of cubics and side the last cubic and the side that it comes from.
-    let mut steps: Vec<[Option<(Cubic, usize)>; SIDES]> = Vec::new();
-    let mut places = [None; SIDES];
-    places[0] = Some(from);
-    while steps.len() + 1 < plain.len() {
-        let mut step = [None; SIDES];
-        let guess = plain[steps.len()].to - plain[steps.len()].from;
-        for (before, place) in places.iter().enumerate() {
-            let Some(place) = *place else { continue };
-            let shortest = shortest(fitter, place, [from, to]);
-            for after in 0..SIDES {
-                let fitter = Fitter { offsets: [offset(before), offset(after)], ..*fitter };
-                // The end itself is on the curve.
-                let limit = if after == 0 { to } else { to - shortest };
-                if !(place < limit) {
-                    continue;
-                }
-                let guess = predict(&fitter, place, limit, guess);
-                let cubic = farthest(&fitter, place, limit, guess, shortest);
-                let is_best =
-                    step[after].is_none_or(|(best, _): (Cubic, usize)| cubic.to > best.to);
-                if cubic.error <= fitter.accuracy && is_best {
-                    step[after] = Some((cubic, before));
-                }
-            }
-        }
-        places = step.map(|reached| reached.map(|(cubic, _)| cubic.to));
-        steps.push(step);
-        if places[0] == Some(to) {
-            return traced_back(&steps);
-        }
-        if places.iter().all(Option::is_none) {
-            break;
-        }
-    }
-    plain
-}
-
-/// The way to the end, on the curve.
-fn traced_back(steps: &[[Option<(Cubic, usize)>; SIDES]]) -> Vec<Cubic> {
-    let mut cubics = Vec::with_capacity(steps.len());
-    let mut side = 0;
-    for step in steps.iter().rev() {
-        let Some((cubic, before)) = step[side] else { break };
-        cubics.push(cubic);
-        side = before;
-    }
-    cubics.reverse();
-    cubics
 }
 
 /// In two until the accuracy is met (section 9.6.2).
@@ -268,13 +203,6 @@ fn balanced(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
     if even.iter().all(|cubic| cubic.error <= fitter.accuracy) { even } else { greedy }
 }
 
-/// Estimates within this of what they estimate, in the typical case; what the greedy search aims at. Closer, and
-/// the certificate rejects more of them; farther, and cubics get shorter by a sixth of the difference.
-const AIM: f64 = 0.99;
-
-/// Good enough: at the sixth order the cubic is within half a percent of the longest.
-const CLOSE: f64 = 0.965;
-
 /// Cubics that each reach as far as the accuracy allows (section 9.6.4).
 pub(super) fn greedy(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
     let mut cubics: Vec<Cubic> = Vec::new();
@@ -318,7 +246,13 @@ fn first_guess(fitter: &Fitter<'_>, from: f64, to: f64) -> f64 {
 }
 
 /// The longest cubic from `from` within the accuracy, or one of the shortest length without it.
-fn farthest(fitter: &Fitter<'_>, from: f64, to: f64, guess: f64, shortest: f64) -> Cubic {
+pub(super) fn farthest(
+    fitter: &Fitter<'_>,
+    from: f64,
+    to: f64,
+    guess: f64,
+    shortest: f64,
+) -> Cubic {
     /// Of certificates that are refused; each shortens the piece.
     const MOST_REFUSALS: usize = 4;
     let rest = to - from;
@@ -372,8 +306,6 @@ impl Search {
 /// A longer cubic than the longest of a stretch of lengths: the error isn't monotone. It falls again
 /// where E₆, a function of the piece's middle, changes its sign.
 fn beyond(fitter: &Fitter<'_>, cubic: &Cubic, to: f64, shortest: f64) -> Option<Cubic> {
-    /// The sixth power of the length less what E₆ loses; steeper, and no zero is near.
-    const STEEP: f64 = 5.0;
     /// Where it is looked for: steps of 5 % up to twice the length.
     const STEP: f64 = 1.05;
     const MOST_STEPS: usize = 14;
@@ -389,7 +321,7 @@ fn beyond(fitter: &Fitter<'_>, cubic: &Cubic, to: f64, shortest: f64) -> Option<
             return None;
         }
         let error = fitter.law(from, from + longer)?;
-        if step == 0 && error > before * STEP.powf(STEEP) {
+        if step == 0 && error > before * STEP.powf(NO_ZERO_NEAR) {
             return None;
         }
         if error < before && error < fitter.accuracy {
@@ -422,17 +354,15 @@ fn longest_estimate(
     const RESOLUTION: f64 = 1.003;
     let rest = to - from;
     let target = AIM * fitter.accuracy;
-    // Beside an offset that is nearly as large, errors don't tell.
-    let close = if fitter.offsets == [0.0; 2] { CLOSE } else { f64::INFINITY };
     let mut length = guess.max(shortest).min(rest);
     // The trial before: length and error.
     let mut last: Option<(f64, f64)> = None;
     for _ in 0..MOST_TRIALS {
         let candidate = fitter.try_piece(from, end(from, length, to));
         let (tried, error) = (candidate.piece.to - from, candidate.error);
-        if error <= fitter.accuracy * 0.998 {
+        if error <= FITS * fitter.accuracy {
             search.fits = Some(candidate);
-            if error >= close * fitter.accuracy || candidate.piece.to >= to {
+            if error >= CLOSE * fitter.accuracy || candidate.piece.to >= to {
                 return candidate;
             }
         } else {
@@ -450,8 +380,7 @@ fn longest_estimate(
                 // Between the two, by the slope that they show, but not too near to either.
                 let span = (search.fails / low_length).ln();
                 let along = (target / low_error).ln() / (search.fails_by / low_error).ln();
-                let is_telling = along.is_finite() && close.is_finite();
-                let along = if is_telling { along.clamp(0.1, 0.9) } else { 0.5 };
+                let along = if along.is_finite() { along.clamp(0.1, 0.9) } else { 0.5 };
                 low_length * (along * span).exp()
             }
             fits => {
@@ -476,9 +405,7 @@ fn longest_estimate(
 
 /// The length that the sixth-order theory gives a cubic from `from`; `guess` where it has nothing
 /// to say.
-fn predict(fitter: &Fitter<'_>, from: f64, to: f64, guess: f64) -> f64 {
-    /// The theory itself is good to a percent or two, where it is good at all.
-    const CLOSE: f64 = 0.03;
+pub(super) fn predict(fitter: &Fitter<'_>, from: f64, to: f64, guess: f64) -> f64 {
     let mut length = guess.min(to - from);
     for _ in 0..4 {
         let Some(error) = fitter.law(from, from + length) else { return length };
@@ -488,7 +415,7 @@ fn predict(fitter: &Fitter<'_>, from: f64, to: f64, guess: f64) -> f64 {
             return length;
         }
         let next = (length * factor.clamp(0.4, 2.5)).min(to - from);
-        if (ratio - 1.0).abs() < CLOSE || next == length {
+        if (ratio - 1.0).abs() < LAW_IS_CLOSE || next == length {
             return next;
         }
         length = next;

@@ -26,10 +26,9 @@ use crate::segment::Segment;
 impl ParamCurveFit for Curve {
     fn sample_pt_tangent(&self, t: f64, sign: f64) -> CurveFitSample {
         match place(self, t * self.length(), sign) {
-            Some((segment, s)) => CurveFitSample {
-                p: segment.point(s),
-                tangent: Vec2::from_angle(segment.direction(s)),
-            },
+            Some((segment, s)) => {
+                CurveFitSample { p: segment.point(s), tangent: tangent(segment, s) }
+            }
             None => CurveFitSample {
                 p: self.start().unwrap_or(Point::ZERO),
                 tangent: Vec2::new(1.0, 0.0),
@@ -40,9 +39,7 @@ impl ParamCurveFit for Curve {
     fn sample_pt_deriv(&self, t: f64) -> (Point, Vec2) {
         let length = self.length();
         match place(self, t * length, 1.0) {
-            Some((segment, s)) => {
-                (segment.point(s), Vec2::from_angle(segment.direction(s)) * length)
-            }
+            Some((segment, s)) => (segment.point(s), tangent(segment, s) * length),
             None => (self.start().unwrap_or(Point::ZERO), Vec2::ZERO),
         }
     }
@@ -82,7 +79,7 @@ impl ParamCurveFit for Curve {
 }
 
 /// Radians: 16 nodes integrate products of three coordinates and direction over this much of a turn to rounding.
-pub(super) const PANEL: f64 = 2.0;
+const PANEL: f64 = 2.0;
 
 /// What arc lengths are off by after a fraction and back, as a part of the whole.
 const ROUNDING: f64 = 1e-13;
@@ -106,6 +103,17 @@ fn place(curve: &Curve, s: f64, sign: f64) -> Option<(&Segment, f64)> {
     curve.segments().last().map(|last| (last, last.length()))
 }
 
+/// The unit tangent. That of a line along an axis is so to the bit: by kurbo 0.13, rays across one that is off by
+/// rounding miss it.
+fn tangent(segment: &Segment, s: f64) -> Vec2 {
+    let chord = (segment.end() - segment.start()).normalize();
+    if segment.is_line() && chord.is_finite() {
+        chord
+    } else {
+        Vec2::from_angle(segment.direction(s))
+    }
+}
+
 /// ∫ y dx, ∫ xy dx and ∫ y² dx over part of a segment.
 fn moments(segment: &Segment, from: f64, to: f64) -> (f64, f64, f64) {
     /// Beside a cusp curvature has no bound.
@@ -119,7 +127,7 @@ fn moments(segment: &Segment, from: f64, to: f64) -> (f64, f64, f64) {
         for (weight, node) in GAUSS_LEGENDRE_COEFFS_16 {
             let s = middle + half * node;
             let point = segment.point(s);
-            let area = weight * half * point.y * segment.direction(s).cos();
+            let area = weight * half * point.y * tangent(segment, s).x;
             sums = (sums.0 + area, sums.1 + area * point.x, sums.2 + area * point.y);
         }
     }

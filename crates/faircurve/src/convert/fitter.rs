@@ -1,14 +1,15 @@
 //! One cubic for one piece, by the metric and the kind of fit that are asked for.
 
-use kurbo::CubicBez;
+use kurbo::{CubicBez, Vec2};
 
 use super::certificate::distance_bound;
 use super::contact;
 use super::metric::angle_error;
 use super::minimax::{Fit as Arms, LocalCubic, first_params, measure, minimax};
 use super::options::{Fit, Metric};
-use super::piece::{Joint, Piece, Stretch};
+use super::piece::{Piece, Shift, Stretch};
 use super::single;
+use super::tuning::{HOPELESS, SHORT};
 
 /// Fits cubics to pieces of one stretch.
 #[derive(Clone, Copy, Debug)]
@@ -18,15 +19,9 @@ pub(super) struct Fitter<'a> {
     pub(super) fit: Fit,
     /// What errors are held against, in the metric's units.
     pub(super) accuracy: f64,
-    /// How far cubics start and end to the left of the curve, in user units.
-    pub(super) offsets: [f64; 2],
+    /// How cubics start and end.
+    pub(super) shifts: [Shift; 2],
 }
-
-/// Pieces shorter than this part of a stretch that have no cubic with their end curvatures get the best one without.
-const SHORT: f64 = 1e-3;
-
-/// Cubics that are so many times farther off than allowed, which only the shortest pieces may be, get a cheap bound.
-const HOPELESS: f64 = 8.0;
 
 /// A cubic that may do.
 #[derive(Clone, Copy, Debug)]
@@ -42,8 +37,7 @@ pub(super) struct Candidate {
 pub(super) struct Cubic {
     pub(super) from: f64,
     pub(super) to: f64,
-    /// How far its ends are to the left of the curve.
-    pub(super) offsets: [f64; 2],
+    pub(super) shifts: [Shift; 2],
     /// Arm lengths in user units.
     pub(super) arms: [f64; 2],
     /// Error in the metric's units; of distances the bound.
@@ -55,7 +49,7 @@ pub(super) struct Cubic {
 impl Fitter<'_> {
     /// The best cubic for a piece.
     pub(super) fn try_piece(&self, from: f64, to: f64) -> Candidate {
-        let piece = self.stretch.piece(from, to).with_offsets(self.offsets);
+        let piece = self.stretch.piece(from, to).shifted(self.shifts);
         let measured = |arms: [f64; 2]| measure(&piece, arms, first_params(arms));
         let arms = match (self.fit, self.metric) {
             (Fit::ArcThird, _) => measured(single::ARC_THIRD),
@@ -106,28 +100,33 @@ impl Fitter<'_> {
         let lengths = arms.arms.map(|arm| arm * piece.half);
         let is_hopeless =
             arms.error * piece.half > HOPELESS * self.accuracy && self.metric == Metric::Distance;
-        let mut bound = distance_bound(self.stretch, piece, arms, is_hopeless);
+        // The other metrics set the distance no limit.
+        let limit = if self.metric == Metric::Distance { self.accuracy } else { f64::INFINITY };
+        let mut bound = distance_bound(self.stretch, piece, arms, limit, is_hopeless);
         if !bound.is_finite() {
             bound = farthest_apart(piece, lengths);
         }
         let error = if self.metric == Metric::Distance { bound } else { *error };
-        let offsets = self.offsets;
-        Cubic { from: piece.from, to: piece.to, offsets, arms: lengths, error, bound }
+        let shifts = self.shifts;
+        Cubic { from: piece.from, to: piece.to, shifts, arms: lengths, error, bound }
     }
 
     /// The cubic in place.
     pub(super) fn place(&self, cubic: &Cubic) -> CubicBez {
-        let [from, to] = [cubic.from, cubic.to].map(|s| self.stretch.joint(s));
-        let moved = |joint: &Joint, offset: f64| {
+        let mut ends = [cubic.from, cubic.to].map(|s| self.stretch.joint(s));
+        for (joint, shift) in ends.iter_mut().zip(cubic.shifts) {
             // Exact where there is nothing to move.
-            if offset == 0.0 { joint.point } else { joint.point + joint.tangent.turn_90() * offset }
-        };
-        let (start, end) = (moved(&from, cubic.offsets[0]), moved(&to, cubic.offsets[1]));
+            if shift != Shift::NONE {
+                joint.point += joint.tangent.turn_90() * shift.offset;
+                joint.tangent = joint.tangent.rotate_scale(Vec2::from_angle(shift.turn));
+            }
+        }
+        let [from, to] = ends;
         CubicBez::new(
-            start,
-            start + from.tangent * cubic.arms[0],
-            end - to.tangent * cubic.arms[1],
-            end,
+            from.point,
+            from.point + from.tangent * cubic.arms[0],
+            to.point - to.tangent * cubic.arms[1],
+            to.point,
         )
     }
 }

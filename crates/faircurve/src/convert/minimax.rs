@@ -5,12 +5,14 @@
 //! for the arms and the deviation, and an exchange finds the places (Remez). A few rounds of this
 //! from the cubics in sixth-order [contact](super::contact).
 
-use std::sync::LazyLock;
-
 use num_complex::Complex64;
 
 use super::contact::{MINIMAX_Q, Start, contact_starts, cross, dot};
+use super::grid::{GRID, deviation_on_grid, largest, on_grid, parabola, vertex, worst_lobe};
 use super::piece::{NODES, PLACES, Piece};
+use super::tuning::{
+    CONTACT_ROUNDS, CRUDE_ROUNDS, GOOD_ENOUGH, LONG, MOST_EXCHANGES, WORTH_TRYING,
+};
 
 /// A cubic in the frame of a piece, by powers of its parameter.
 #[derive(Clone, Copy, Debug)]
@@ -71,21 +73,8 @@ impl Fit {
     }
 }
 
-/// Rounds of the exchange for a start by contact, where one or two are enough, and for a cruder one.
-const CONTACT_ROUNDS: usize = 3;
-const CRUDE_ROUNDS: usize = 8;
-
-/// A deviation within this factor of the best that the exchange promises is good enough: the cuts
-/// lose a sixth of it in length.
-const GOOD_ENOUGH: f64 = 1.01;
-
 /// The best of the local minima of the largest deviation that were found.
 pub(super) fn minimax(piece: &Piece) -> Fit {
-    /// A contact worse than the best by more than this isn't tried: higher terms don't
-    /// change a deviation by so much on the pieces that a conversion ends up with.
-    const WORTH_TRYING: f64 = 4.0;
-    /// Pieces that turn more than this (radians) are too long for the expansion to be trusted alone.
-    const LONG: f64 = 1.5;
     let mut best: Option<Fit> = None;
     let mut consider = |fit: Fit| {
         if best.is_none_or(|best| fit.error < best.error) {
@@ -173,107 +162,13 @@ pub(super) fn measure(piece: &Piece, arms: [f64; 2], mut params: [f64; NODES]) -
         params[i] = t;
         deviation[i] = i0 - place.im + (i1 + (i2 + i3 * t) * t) * t;
     }
-    let mut error = largest(&on_grid_between(piece.offsets, &deviation));
-    error = error.max(piece.offsets[0].abs()).max(piece.offsets[1].abs());
+    let mut error = largest(&deviation_on_grid(piece, &deviation), piece.offsets);
     // Where the cubic stands still or runs backwards beside the piece, it isn't a fit; nor is NaN.
     if !(slowest > 0.0) || deviation.iter().any(|d| d.is_nan()) {
         error = f64::INFINITY;
         params = PLACES.map(|x| 0.5 + 0.5 * x);
     }
     Fit { arms, params, deviation, error }
-}
-
-/// Places at which deviations are known: ϑ = π/32 … 31π/32, x = −cos ϑ. The best cubic's lobes are about 5 wide.
-const GRID: usize = 31;
-
-/// Values on the grid from those at the nodes: a deviation, or what an arm adds to it, is zero twice at both ends, and
-/// (1 − x²)² times the polynomial of degree 6 through the rest. Even and odd parts apart: the weights of the parts at
-/// 0, 0.34, 0.6355, 0.9 for x = cos ϑ ≥ 0.
-static WEIGHTS: LazyLock<[([f64; 4], [f64; 3]); GRID / 2 + 1]> = LazyLock::new(|| {
-    let nodes = [0.0, PLACES[4], PLACES[5], PLACES[6]];
-    let end = |x: f64| (1.0 - x * x) * (1.0 - x * x);
-    std::array::from_fn(|g| {
-        let x = (std::f64::consts::PI * (g + 1) as f64 / (GRID + 1) as f64).cos();
-        let x = if g == GRID / 2 { 0.0 } else { x };
-        let lagrange = |nodes: &[f64], i: usize| -> f64 {
-            let others = nodes.iter().enumerate().filter(|(j, _)| *j != i);
-            others.map(|(_, m)| (x * x - m * m) / (nodes[i] * nodes[i] - m * m)).product()
-        };
-        let even = std::array::from_fn(|i| lagrange(&nodes, i) * end(x) / end(nodes[i]));
-        let odd = std::array::from_fn(|i| {
-            lagrange(&nodes[1..], i) * x / nodes[i + 1] * end(x) / end(nodes[i + 1])
-        });
-        (even, odd)
-    })
-});
-
-fn on_grid(nodes: &[f64; NODES]) -> [f64; GRID] {
-    let mut even = [nodes[3], 0.0, 0.0, 0.0];
-    let mut odd = [0.0; 3];
-    for i in 0..3 {
-        even[i + 1] = 0.5 * (nodes[4 + i] + nodes[2 - i]);
-        odd[i] = 0.5 * (nodes[4 + i] - nodes[2 - i]);
-    }
-    let mut values = [0.0; GRID];
-    for (g, (for_even, for_odd)) in WEIGHTS.iter().enumerate() {
-        let e = (for_even[0] * even[0] + for_even[1] * even[1])
-            + (for_even[2] * even[2] + for_even[3] * even[3]);
-        let o = for_odd[0] * odd[0] + for_odd[1] * odd[1] + for_odd[2] * odd[2];
-        values[GRID - 1 - g] = e + o;
-        values[g] = e - o;
-    }
-    values
-}
-
-/// The same of a deviation that isn't zero at the ends, though its slope is: less a cubic that is as large there.
-fn on_grid_between([from, to]: [f64; 2], nodes: &[f64; NODES]) -> [f64; GRID] {
-    if from == 0.0 && to == 0.0 {
-        return on_grid(nodes);
-    }
-    let blend = |x: f64| (to + from) / 2.0 + (to - from) / 4.0 * x * (3.0 - x * x);
-    let mut rest = *nodes;
-    for (value, x) in rest.iter_mut().zip(PLACES) {
-        *value -= blend(x);
-    }
-    let mut values = on_grid(&rest);
-    for (g, value) in values.iter_mut().enumerate() {
-        *value += blend(-(std::f64::consts::PI * (g + 1) as f64 / (GRID + 1) as f64).cos());
-    }
-    values
-}
-
-/// The largest absolute value on the grid, between its points by a parabola.
-fn largest(values: &[f64; GRID]) -> f64 {
-    let mut top = 0;
-    for g in 1..GRID {
-        if values[g].abs() > values[top].abs() {
-            top = g;
-        }
-    }
-    let (offset, _) = vertex(values, top);
-    parabola(values, top, offset).abs().max(values[top].abs())
-}
-
-/// Where the parabola through three neighbours has its extremum, in steps from the middle one.
-fn vertex(values: &[f64; GRID], at: usize) -> (f64, f64) {
-    if at == 0 || at == GRID - 1 {
-        return (0.0, 0.0);
-    }
-    let (slope, bend) = slopes(values, at);
-    if bend == 0.0 { (0.0, 0.0) } else { ((-slope / bend).clamp(-0.5, 0.5), bend) }
-}
-
-fn slopes(values: &[f64; GRID], at: usize) -> (f64, f64) {
-    let (before, after) = (values[at - 1], values[at + 1]);
-    ((after - before) / 2.0, after - 2.0 * values[at] + before)
-}
-
-fn parabola(values: &[f64; GRID], at: usize, offset: f64) -> f64 {
-    if at == 0 || at == GRID - 1 {
-        return values[at];
-    }
-    let (slope, bend) = slopes(values, at);
-    values[at] + offset * (slope + offset * bend / 2.0)
 }
 
 /// Three equations n + a·sₐ + b·s_b = ±level, the signs those of the combination in which the arms cancel.
@@ -314,8 +209,6 @@ impl Reference {
 /// The change of the arms that makes the largest deviation least, by the linear model, and what is
 /// then left.
 fn exchange(piece: &Piece, fit: &Fit) -> Option<([f64; 2], f64)> {
-    /// Each exchange raises the level; on ordinary pieces two or three are enough.
-    const MOST_EXCHANGES: usize = 12;
     let [t0, t1] = piece.end_tangents;
     let mut by_a = [0.0; NODES];
     let mut by_b = [0.0; NODES];
@@ -325,7 +218,7 @@ fn exchange(piece: &Piece, fit: &Fit) -> Option<([f64; 2], f64)> {
         by_a[i] = 3.0 * u * u * t * cross(tangent, t0);
         by_b[i] = -3.0 * u * t * t * cross(tangent, t1);
     }
-    let n = on_grid_between(piece.offsets, &fit.deviation);
+    let n = deviation_on_grid(piece, &fit.deviation);
     let (by_a, by_b) = (on_grid(&by_a), on_grid(&by_b));
     let at = |reference: [usize; 3]| {
         (reference.map(|g| n[g]), reference.map(|g| by_a[g]), reference.map(|g| by_b[g]))
@@ -341,13 +234,10 @@ fn exchange(piece: &Piece, fit: &Fit) -> Option<([f64; 2], f64)> {
     for _ in 0..MOST_EXCHANGES {
         let (rn, ra, rb) = at(reference);
         let step = solved.step(rn, ra, rb)?;
-        let mut worst = 0;
         for g in 0..GRID {
             left[g] = n[g] + by_a[g] * step[0] + by_b[g] * step[1];
-            if left[g].abs() > left[worst].abs() {
-                worst = g;
-            }
         }
+        let Some(worst) = worst_lobe(&left, piece.offsets) else { break };
         if !(left[worst].abs() > solved.level.abs() * 1.000_001) {
             break;
         }

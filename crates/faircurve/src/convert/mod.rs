@@ -5,6 +5,8 @@ mod contact;
 mod cuts;
 mod fit_source;
 mod fitter;
+mod free_joints;
+mod grid;
 mod metric;
 mod minimax;
 mod options;
@@ -13,6 +15,7 @@ mod series;
 mod single;
 #[cfg(test)]
 mod tests;
+mod tuning;
 
 use kurbo::{BezPath, CubicBez, PathSeg};
 
@@ -21,7 +24,7 @@ use crate::segment::{Segment, Shape};
 use crate::tolerance::SOLVED;
 
 use fitter::Fitter;
-use piece::Stretch;
+use piece::{Shift, Stretch};
 
 pub use options::{Cuts, Fit, Metric, Options};
 
@@ -145,13 +148,13 @@ fn append_stretch(result: &mut Conversion, segments: &[Segment], start: f64, opt
         metric: options.metric,
         fit: options.fit,
         accuracy,
-        offsets: [0.0; 2],
+        shifts: [Shift::NONE; 2],
     };
     let places = stretch_places(&stretch, start, options);
     let is_free =
         options.free_joints && options.metric == Metric::Distance && options.fit == Fit::Optimal;
     let between = places.windows(2).flat_map(|pair| match is_free {
-        true => cuts::with_free_joints(&fitter, pair[0], pair[1]),
+        true => free_joints::cut(&fitter, pair[0], pair[1]),
         false => cuts::cut(&fitter, options.cuts, pair[0], pair[1]),
     });
     for cubic in between {
@@ -184,8 +187,13 @@ pub fn fit_single(segment: &Segment, metric: Metric, fit: Fit) -> SingleFit {
     }
     let all = std::slice::from_ref(segment);
     let stretch = Stretch::new(all);
-    let fitter =
-        Fitter { stretch: &stretch, metric, fit, accuracy: f64::INFINITY, offsets: [0.0; 2] };
+    let fitter = Fitter {
+        stretch: &stretch,
+        metric,
+        fit,
+        accuracy: f64::INFINITY,
+        shifts: [Shift::NONE; 2],
+    };
     let cubic = fitter.certify(&fitter.try_piece(0.0, stretch.length()));
     SingleFit { cubic: fitter.place(&cubic), error: cubic.error }
 }

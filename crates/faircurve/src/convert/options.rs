@@ -127,9 +127,10 @@ pub struct Options {
     /// Let a cubic run through knots at which the curve is smooth. Else every knot is the end of a
     /// cubic. Where straight lines begin and end, and at the start, there are always ends.
     pub span_knots: bool,
-    /// Let ends of cubics leave the curve along its normal, within the accuracy, where that needs
-    /// fewer. Tangents there are still those of the curve. Not at knots (unless they are spanned), nor at places that are asked for. For
-    /// [`Metric::Distance`] and [`Fit::Optimal`] only.
+    /// Let ends of cubics leave the curve, within the accuracy, where that needs fewer: along its normal, or, where
+    /// neighbours bend away to different sides, with a tangent that is turned by up to 0.05 radians. Neighbours share
+    /// point and tangent. Not at knots (unless they are spanned), nor at places that are asked for. For
+    /// [`Metric::Distance`] and [`Fit::Optimal`] only; some ten times the work.
     pub free_joints: bool,
 }
 

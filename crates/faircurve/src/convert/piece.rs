@@ -138,6 +138,7 @@ impl<'a> Stretch<'a> {
             half,
             ends: [Complex64::ZERO; 2],
             offsets: [0.0; 2],
+            slopes: [0.0; 2],
             end_tangents: [Complex64::ZERO; 2],
             end_curvature: [0.0; 2],
             places: [Complex64::ZERO; NODES],
@@ -234,6 +235,20 @@ fn unit(direction: f64) -> Vec2 {
     Vec2::from_angle(direction)
 }
 
+/// How the end of a cubic stands to the curve beside it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Shift {
+    /// How far to the left of it, in user units.
+    pub(super) offset: f64,
+    /// By how much its tangent is turned to the left, in radians.
+    pub(super) turn: f64,
+}
+
+impl Shift {
+    /// On the curve, with its tangent.
+    pub(super) const NONE: Shift = Shift { offset: 0.0, turn: 0.0 };
+}
+
 /// A piece in a frame of its own, half the arc length the unit: what a cubic is fitted to.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
@@ -242,11 +257,13 @@ pub(super) struct Piece {
     pub(super) to: f64,
     /// Half the arc length, in user units.
     pub(super) half: f64,
-    /// Where a cubic starts and ends: the curve's own ends, or these moved by `offsets`.
+    /// Where a cubic starts and ends: the curve's own ends, or beside them.
     pub(super) ends: [Complex64; 2],
-    /// How far to the left of the curve.
-    pub(super) offsets: [f64; 2],
+    /// Directions in which it does.
     pub(super) end_tangents: [Complex64; 2],
+    /// Deviation from the curve at the ends, to the left, and its derivative by x.
+    pub(super) offsets: [f64; 2],
+    pub(super) slopes: [f64; 2],
     pub(super) end_curvature: [f64; 2],
     /// Points at [`PLACES`].
     pub(super) places: [Complex64; NODES],
@@ -257,11 +274,15 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    /// With the ends of the cubic moved to the left, in user units.
-    pub(super) fn with_offsets(mut self, offsets: [f64; 2]) -> Self {
-        for end in 0..2 {
-            self.offsets[end] = offsets[end] / self.half;
-            self.ends[end] += self.end_tangents[end] * Complex64::new(0.0, self.offsets[end]);
+    /// With the ends of the cubic beside the curve.
+    pub(super) fn shifted(mut self, shifts: [Shift; 2]) -> Self {
+        for (end, Shift { offset, turn }) in shifts.into_iter().enumerate() {
+            let offset = offset / self.half;
+            self.offsets[end] = offset;
+            self.ends[end] += self.end_tangents[end] * Complex64::new(0.0, offset);
+            // With n(x) the deviation along the normal the cubic's direction is that of 1 − κn + i n′.
+            self.slopes[end] = turn.tan() * (1.0 - self.end_curvature[end] * offset);
+            self.end_tangents[end] *= Complex64::from_polar(1.0, turn);
         }
         self
     }
@@ -283,6 +304,7 @@ impl Piece {
             half: (to - from) / 2.0,
             ends: [end[1], end[0]],
             offsets: [0.0; 2],
+            slopes: [0.0; 2],
             end_tangents,
             end_curvature: [series.curvature(-1.0), series.curvature(1.0)],
             places: [p0[1], p1[1], p2[1], Complex64::ZERO, p2[0], p1[0], p0[0]],

@@ -5,6 +5,7 @@ use super::metric::{angle_error, arc_length};
 use super::minimax::{Fit, LocalCubic, first_params, measure};
 use super::options::Metric;
 use super::piece::{Piece, Stretch};
+use super::tuning::{LONG, WORTH_TRYING};
 
 /// Arms of a third of the arc length (section 9.3), in units of the half length.
 pub(super) const ARC_THIRD: [f64; 2] = [2.0 / 3.0; 2];
@@ -64,10 +65,6 @@ pub(super) fn all_minima(stretch: &Stretch<'_>, piece: &Piece, metric: Metric) -
 
 /// The least of the local minima. Those near cubics in contact are tried first; without any, all are.
 pub(super) fn least_angle_error(stretch: &Stretch<'_>, piece: &Piece, metric: Metric) -> [f64; 2] {
-    /// The expansion is trusted where it says that one contact is this much worse than another.
-    const WORTH_TRYING: f64 = 4.0;
-    /// Radians; beyond, the expansion isn't trusted at all.
-    const LONG: f64 = 1.5;
     /// Half the width in which the minimum near a contact is looked for.
     const NEAR: f64 = 0.02;
     let mut best: Option<Minimum> = None;

@@ -30,7 +30,7 @@ fn assert_close(what: &str, value: f64, wanted: f64, tolerance: f64) {
 }
 
 fn fitter<'a>(stretch: &'a Stretch<'a>, fit: Fit) -> Fitter<'a> {
-    Fitter { stretch, metric: Metric::SquaredAngle, fit, accuracy: 1.0, offsets: [0.0; 2] }
+    Fitter { stretch, metric: Metric::SquaredAngle, fit, accuracy: 1.0, shifts: [Shift::NONE; 2] }
 }
 
 /// The reference looks at ratios from about 0.2 to 0.8 only; there are more minima outside, and worse ones inside.
@@ -120,7 +120,6 @@ fn named(name: &str) -> Segment {
 
 #[test]
 fn equal_errors_and_their_places_agree_with_the_reference() {
-    let mut compared = 0;
     for case in reference()["segments"]["equal_error"].as_array().unwrap() {
         let name = case["curve"].as_str().unwrap();
         let n = case["n"].as_u64().unwrap() as usize;
@@ -130,32 +129,34 @@ fn equal_errors_and_their_places_agree_with_the_reference() {
         }
         let all = [named(name)];
         let stretch = Stretch::new(&all);
-        let accuracy = wanted * 1.2;
+        let is_symmetric = name.ends_with("[-1.5,1.5]");
+        // Of the symmetric spiral, four pieces are hardly better than three.
+        let room = if is_symmetric && n == 4 { 1.02 } else { 1.2 };
+        let accuracy = wanted * room;
         let fitter = Fitter { accuracy, ..fitter(&stretch, Fit::Optimal) };
-        let cubics = cuts::cut(&fitter, Cuts::EqualErrors, 0.0, stretch.length());
-        if cubics.len() < n {
-            // With the room that it is given, one less is enough.
-            continue;
-        }
-        let largest = cubics.iter().fold(0.0f64, |largest, cubic| largest.max(cubic.error));
-        assert!(largest <= accuracy);
-        // Errors aren't monotone: other cuts are as even (3, 4), or none near the reference's are reached (2, 5).
-        let is_ambiguous =
-            [("[0,2.5]", 2), ("[-1.5,1.5]", 3), ("[-1.5,1.5]", 4), ("[-1.5,1.5]", 5)]
-                .into_iter()
-                .any(|(range, pieces)| name.ends_with(range) && n == pieces);
-        if is_ambiguous {
-            continue;
-        }
         let places = case["breakpoints"].as_array().unwrap();
-        for (cubic, place) in cubics.iter().zip(&places[1..]) {
-            let place = number(place) - number(&places[0]);
-            assert!((cubic.to - place).abs() < 1e-6, "{name} {n}: {} {place}", cubic.to);
-            assert_close(name, cubic.error, wanted, 2e-6);
+        let places: Vec<f64> = places.iter().map(|p| number(p) - number(&places[0])).collect();
+        // The reference's own cuts.
+        for pair in places.windows(2) {
+            let to = pair[1].min(stretch.length());
+            assert_close(name, fitter.try_piece(pair[0], to).error, wanted, 2e-6);
         }
-        compared += 1;
+        let cubics = cuts::cut(&fitter, Cuts::EqualErrors, 0.0, stretch.length());
+        assert_eq!(cubics.len(), n, "{name}");
+        let mean = cubics.iter().map(|cubic| cubic.error).sum::<f64>() / n as f64;
+        for cubic in &cubics {
+            assert_close(name, cubic.error, mean, 2e-6);
+        }
+        // Errors aren't monotone, so that there may be several such cuts: here ours isn't the symmetric one.
+        if is_symmetric && n == 3 {
+            assert!(mean < 1.03 * wanted, "{mean:e}");
+            continue;
+        }
+        assert_close(name, mean, wanted, 2e-6);
+        for (cubic, place) in cubics.iter().zip(&places[1..]) {
+            assert!((cubic.to - place).abs() < 1e-6, "{name} {n}: {} {place}", cubic.to);
+        }
     }
-    assert!(compared >= 16, "{compared}");
 }
 
 /// Curves of arc length about 1000, with inflections, extrema of curvature, and ones that wind.
@@ -248,6 +249,57 @@ fn accuracy_is_kept_over_decades_and_the_bound_is_sharp() {
 }
 
 #[test]
+fn free_joints_need_fewer_and_stay_smooth() {
+    use kurbo::PathSeg;
+    let (mut on_the_curve, mut beside) = (0, 0);
+    for k in SHAPES {
+        let curve = Curve::new(vec![shape(k, 1000.0)], false);
+        for decade in 2..=7 {
+            let accuracy = 10f64.powi(-decade);
+            let plain = convert(&curve, &Options::new(accuracy));
+            let free = Options { free_joints: true, ..Options::new(accuracy) };
+            let free = convert(&curve, &free);
+            on_the_curve += plain.cubics;
+            beside += free.cubics;
+            assert!(free.cubics <= plain.cubics);
+            let error = true_error(&curve, &free.path, 100);
+            assert!(error <= free.bound && free.bound <= accuracy, "{k:?} {accuracy:e}: {error:e}");
+            let cubics: Vec<CubicBez> = free.path.segments().map(|s| s.to_cubic()).collect();
+            assert!(free.path.segments().all(|s| matches!(s, PathSeg::Cubic(_))));
+            assert_eq!(cubics[0].p0, curve.segments()[0].start());
+            assert_eq!(cubics[cubics.len() - 1].p3, curve.segments()[0].end());
+            for pair in cubics.windows(2) {
+                let (before, after) = (pair[0].p3 - pair[0].p2, pair[1].p1 - pair[1].p0);
+                let sine = before.cross(after) / (before.hypot() * after.hypot());
+                assert!(sine.abs() < 1e-11 && before.dot(after) > 0.0, "{k:?} {sine:e}");
+            }
+        }
+    }
+    // 5.8 % where E₆ has one sign, less what whole numbers and ends on the curve cost.
+    assert!((beside as f64) < 0.95 * on_the_curve as f64, "{beside} of {on_the_curve}");
+}
+
+/// To leading order the deviation is T₆, stretched so that its outermost extrema but two are the ends.
+#[test]
+fn joints_beside_the_curve_level_the_deviation() {
+    let all = [shape([0.8, 0.7, 0.0, 0.0], 1000.0)];
+    let stretch = Stretch::new(&all);
+    let (metric, fit) = (Metric::Distance, Fit::Optimal);
+    let fitter = Fitter { stretch: &stretch, metric, fit, accuracy: 1.0, shifts: [Shift::NONE; 2] };
+    let (from, to) = (0.3 * stretch.length(), 0.6 * stretch.length());
+    let plain = fitter.try_piece(from, to).error;
+    // 2/27 over 0.1059 (the same module's law).
+    let level = plain * (2.0 / 27.0) / contact::MINIMAX_ERROR;
+    let with = |sign: f64| {
+        let shift = Shift { offset: sign * level, turn: 0.0 };
+        Fitter { shifts: [shift; 2], ..fitter }.try_piece(from, to).error
+    };
+    let (better, worse) = (with(1.0).min(with(-1.0)), with(1.0).max(with(-1.0)));
+    assert!((better / level - 1.0).abs() < 0.01, "{better:e} {level:e}");
+    assert!(worse > plain, "{worse:e} {plain:e}");
+}
+
+#[test]
 fn the_order_of_the_fits_is_the_thesis_s() {
     let curve = Curve::new(vec![shape([1.2, -3.0, 9.0, 40.0], 1000.0)], false);
     let count =
@@ -272,7 +324,8 @@ fn end_curvatures_are_kept() {
     let all = [shape([1.2, -3.0, 9.0, 40.0], 1000.0)];
     let stretch = Stretch::new(&all);
     let (metric, fit) = (Metric::Distance, Fit::EndCurvature);
-    let fitter = Fitter { stretch: &stretch, metric, fit, accuracy: 1e-3, offsets: [0.0; 2] };
+    let fitter =
+        Fitter { stretch: &stretch, metric, fit, accuracy: 1e-3, shifts: [Shift::NONE; 2] };
     for cubic in cuts::cut(&fitter, Cuts::Greedy, 0.0, stretch.length()) {
         let placed = fitter.place(&cubic);
         for (t, s) in [(0.0, cubic.from), (1.0, cubic.to)] {
@@ -309,7 +362,7 @@ fn bounds_by_curvature_alone_hold_and_are_sharp() {
             metric: Metric::Distance,
             fit: Fit::Optimal,
             accuracy: 1e-2,
-            offsets: [0.0; 2],
+            shifts: [Shift::NONE; 2],
         };
         for cubic in cuts::cut(&fitter, Cuts::Greedy, 0.0, stretch.length()) {
             let candidate = fitter.try_piece(cubic.from, cubic.to);
@@ -382,8 +435,8 @@ fn deviation(segment: &Segment, [from, to]: [f64; 2], cubic: &kurbo::CubicBez) -
 #[test]
 fn the_bound_holds_on_random_pieces() {
     let mut random = random(5);
-    let mut sharp = 0;
-    let cases = 20_000;
+    let (mut sharp, mut unshifted) = (0, 0);
+    let cases = 40_000;
     for _ in 0..cases {
         let mut k = [1.0, 2.0, 8.0, 48.0].map(|size| size * (2.0 * random() - 1.0));
         for k in &mut k {
@@ -409,22 +462,35 @@ fn the_bound_holds_on_random_pieces() {
         let all = [segment];
         let segment = &all[0];
         let stretch = Stretch::new(&all);
-        let fitter = Fitter {
-            stretch: &stretch,
-            metric: Metric::Distance,
-            fit: Fit::Optimal,
-            accuracy: f64::INFINITY,
-            offsets: [0.0; 2],
-        };
         let (a, b) = (random(), random());
         let part = [a.min(b), a.max(b)].map(|along| along * segment.length());
         if part[1] - part[0] < 1e-6 * segment.length() {
             continue;
         }
+        // A third of the ends beside the curve.
+        let offset = (part[1] - part[0]) * 10f64.powf(-6.0 * random() - 2.0);
+        let shifts = [(); 2].map(|()| {
+            let is_beside = random() < 0.3;
+            let [offset, turn] = [offset, 30.0 * offset / (part[1] - part[0])]
+                .map(|size| if is_beside { size * (2.0 * random() - 1.0) } else { 0.0 });
+            Shift { offset, turn }
+        });
+        let fitter = Fitter {
+            stretch: &stretch,
+            metric: Metric::Distance,
+            fit: Fit::Optimal,
+            accuracy: f64::INFINITY,
+            shifts,
+        };
         let candidate = fitter.try_piece(part[0], part[1]);
         let cubic = fitter.certify(&candidate);
         let error = deviation(segment, part, &fitter.place(&cubic));
         assert!(error <= cubic.bound, "{k:?} {turn} {part:?}: {error:e} {:e}", cubic.bound);
+        if shifts != [Shift::NONE; 2] {
+            // Ends beside the curve at random give cubics that no conversion would use.
+            continue;
+        }
+        unshifted += 1;
         // Above rounding, of pieces that a conversion would use.
         let rounding = certificate::rounding(&stretch, &candidate.piece);
         if cubic.bound < 1e-2 * (part[1] - part[0]) && error > 1e3 * rounding {
@@ -438,7 +504,7 @@ fn the_bound_holds_on_random_pieces() {
             sharp += usize::from(cubic.bound <= 1.01 * error);
         }
     }
-    assert!(sharp > cases * 8 / 10, "{sharp} of {cases} within 1 %");
+    assert!(sharp > unshifted * 8 / 10, "{sharp} of {unshifted} within 1 %");
 }
 
 /// An arc that nearly closes is placed by a chord that is much shorter than it: the circle that chord and
@@ -537,6 +603,129 @@ fn kurbo_s_fitters_run_and_moments_are_exact() {
     let path = kurbo::fit_to_bezpath(&curve, 0.01);
     assert!(true_error(&curve, &path, 20) < 0.02);
     assert!(curve.break_cusp(0.0..1.0).is_some());
+}
+
+/// The same curve for kurbo without anything of ours but its points: directions by differences, integrals by many
+/// small parts, corners where they are known to be.
+struct Sampled<'a> {
+    curve: &'a Curve,
+    corners: Vec<f64>,
+}
+
+impl Sampled<'_> {
+    fn point(&self, t: f64) -> Point {
+        self.curve.at(t * self.curve.length()).unwrap().point
+    }
+}
+
+impl kurbo::ParamCurveFit for Sampled<'_> {
+    fn sample_pt_tangent(&self, t: f64, sign: f64) -> kurbo::CurveFitSample {
+        let step = if sign < 0.0 || t > 0.99 { -1e-6 } else { 1e-6 };
+        let [near, far] = [self.point(t + step / 2.0), self.point(t + step)];
+        let p = self.point(t);
+        let tangent = ((near - p) * 4.0 - (far - p)) / step;
+        kurbo::CurveFitSample { p, tangent }
+    }
+
+    fn sample_pt_deriv(&self, t: f64) -> (Point, Vec2) {
+        let sample = self.sample_pt_tangent(t, 1.0);
+        (sample.p, sample.tangent)
+    }
+
+    fn moment_integrals(&self, range: std::ops::Range<f64>) -> (f64, f64, f64) {
+        const PARTS: u32 = 20_000;
+        let mut sums = [0.0; 3];
+        let mut before = self.point(range.start);
+        for i in 1..=PARTS {
+            let along = f64::from(i) / f64::from(PARTS);
+            let after = self.point(range.start + along * (range.end - range.start));
+            // Exact for a chord.
+            let (dx, mx, my) =
+                (after.x - before.x, (after.x + before.x) / 2.0, (after.y + before.y) / 2.0);
+            let dy = after.y - before.y;
+            sums[0] += dx * my;
+            sums[1] += dx * (mx * my + dx * dy / 12.0);
+            sums[2] += dx * (my * my + dy * dy / 12.0);
+            before = after;
+        }
+        sums.into()
+    }
+
+    fn break_cusp(&self, range: std::ops::Range<f64>) -> Option<f64> {
+        let inside = |t: &&f64| **t > range.start + 1e-9 && **t < range.end - 1e-9;
+        self.corners.iter().find(inside).copied()
+    }
+}
+
+/// A nearly straight spiral that runs into a line, a corner, and a spiral.
+fn spiral_line_corner_spiral() -> Curve {
+    let gentle = Segment::spiral(
+        Point::new(30.0, 80.0),
+        Point::new(230.0, 100.0),
+        PolynomialSpiral::new([0.02, 0.03, 0.1, -0.4]),
+    );
+    let corner = gentle.end() + Vec2::from_angle(gentle.direction(gentle.length())) * 60.0;
+    let line = Segment::line(gentle.end(), corner);
+    let last = Segment::spiral(
+        corner,
+        corner + Vec2::new(40.0, 70.0),
+        PolynomialSpiral::new([1.0, 2.0, 0.0, 0.0]),
+    );
+    Curve::new(vec![gentle, line, last], false)
+}
+
+#[test]
+fn kurbo_sees_the_curve_that_points_alone_show() {
+    use kurbo::{ParamCurveFit, fit_to_bezpath, fit_to_cubic};
+    let curve = spiral_line_corner_spiral();
+    let length = curve.length();
+    let [first, second, _] = [0, 1, 2].map(|i| curve.segments()[i].length());
+    let corner = (first + second) / length;
+    let sampled = Sampled { curve: &curve, corners: vec![corner] };
+    assert!((curve.break_cusp(0.0..1.0).unwrap() - corner).abs() < 1e-12);
+    for range in [0.0..corner, corner..1.0, corner..0.9] {
+        assert_eq!(curve.break_cusp(range), None);
+    }
+    let knot = first / length;
+    let ranges = [0.0..1.0, 0.1..0.2, knot..corner, 0.3..knot, 0.2..corner, corner..1.0, 0.1..0.9];
+    for range in ranges {
+        for (t, sign) in [(range.start, 1.0), (range.end, -1.0)] {
+            let ours = curve.sample_pt_tangent(t, sign);
+            let theirs = sampled.sample_pt_tangent(t, sign);
+            assert!((ours.p - theirs.p).hypot() < 1e-9);
+            let angle = ours.tangent.cross(theirs.tangent).atan2(ours.tangent.dot(theirs.tangent));
+            assert!(angle.abs() < 1e-5, "{t} {sign}: {angle}");
+        }
+        let (ours, theirs) =
+            (curve.moment_integrals(range.clone()), sampled.moment_integrals(range.clone()));
+        let area = length * length;
+        assert!((ours.0 - theirs.0).abs() < 1e-8 * area, "{range:?} {ours:?} {theirs:?}");
+        assert!((ours.1 - theirs.1).abs() < 1e-8 * area * length, "{range:?} {ours:?} {theirs:?}");
+        assert!((ours.2 - theirs.2).abs() < 1e-8 * area * length, "{range:?} {ours:?} {theirs:?}");
+        let cubics = [fit_to_cubic(&curve, range.clone(), 1.0), fit_to_cubic(&sampled, range, 1.0)];
+        if let [Some((ours, _)), Some((theirs, _))] = cubics {
+            for (p, q) in [(ours.p1, theirs.p1), (ours.p2, theirs.p2)] {
+                assert!((p - q).hypot() < 1e-2 * length, "{ours:?} {theirs:?}");
+            }
+        }
+    }
+    assert_eq!(
+        cubics_in(&fit_to_bezpath(&curve, 0.01)),
+        cubics_in(&fit_to_bezpath(&sampled, 0.01))
+    );
+}
+
+fn cubics_in(path: &BezPath) -> usize {
+    path.segments().count()
+}
+
+/// Rays across a tangent that is off by rounding miss a line along an axis, and thousands of cubics are the result.
+#[test]
+fn kurbo_takes_lines_along_axes_in_one() {
+    let corners = [(390.0, 0.0), (180.0, 0.0), (180.0, 210.0), (390.0, 210.0)].map(Point::from);
+    let lines = corners.windows(2).map(|pair| Segment::line(pair[0], pair[1])).collect();
+    let curve = Curve::new(lines, false);
+    assert_eq!(cubics_in(&kurbo::fit_to_bezpath(&curve, 0.01)), 3);
 }
 
 #[test]

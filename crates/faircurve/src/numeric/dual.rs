@@ -103,6 +103,8 @@ impl<const N: usize> Sub for Dual<N> {
 impl<const N: usize> Mul for Dual<N> {
     type Output = Self;
 
+    /// By the product rule, which is a sum.
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "the product rule is a sum")]
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let by = std::array::from_fn(|i| self.by[i] * other.value + self.value * other.by[i]);

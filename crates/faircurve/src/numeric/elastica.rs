@@ -31,7 +31,9 @@ use super::elliptic::{Elliptic, complete_k};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Elastica {
-    terms: Terms<f64>,
+    curvature: f64,
+    slope: f64,
+    constant: f64,
 }
 
 /// A place on an elastica, in the frame in which the place of reference is the origin and its
@@ -65,7 +67,11 @@ pub(crate) struct UnitArc<T> {
 impl Elastica {
     /// The elastica with this curvature and its derivative at s = 0, and this constant C.
     pub fn new(curvature: f64, slope: f64, constant: f64) -> Self {
-        Elastica { terms: Terms::new(curvature, slope, constant) }
+        Elastica { curvature, slope, constant }
+    }
+
+    fn terms(&self) -> Terms<f64> {
+        Terms::new(self.curvature, self.slope, self.constant)
     }
 
     /// The thesis's family (eq. 3.12): θ″ + λ sin θ = 0 with a vertex of curvature 1 at s = 0.
@@ -79,28 +85,28 @@ impl Elastica {
     /// The λ of the family's member that this elastica is similar to: the force over the square of
     /// the largest curvature. Infinite for a straight line under compression, 0 for one without force.
     pub fn lambda(&self) -> f64 {
-        let Terms { b, p, .. } = self.terms;
+        let Terms { b, p, .. } = self.terms();
         if b == 0.0 { 0.0 } else { b / p }
     }
 
     /// Curvature at s = 0.
     pub fn curvature(&self) -> f64 {
-        self.terms.k
+        self.curvature
     }
 
     /// κ′ at s = 0.
     pub fn slope(&self) -> f64 {
-        self.terms.k1
+        self.slope
     }
 
     /// The constant C.
     pub fn constant(&self) -> f64 {
-        self.terms.constant
+        self.constant
     }
 
     /// The largest curvature anywhere on it, at its vertices.
     pub fn largest_curvature(&self) -> f64 {
-        self.terms.p.sqrt()
+        self.terms().p.sqrt()
     }
 
     /// The force that what lies beyond any place exerts there, in the frame of s = 0 and in units of the
@@ -112,21 +118,21 @@ impl Elastica {
 
     /// The direction from which θ is measured, as long as the force.
     fn axis(&self) -> Complex64 {
-        Complex64::new(self.terms.thrust, self.terms.k1)
+        Complex64::new(self.terms().thrust, self.slope)
     }
 
     /// The thrust ½κ² + C at arc length `s`, positive where the strip is compressed. (It is T of thesis
     /// eq. 3.23, which has the sign of thrust, not of tension.)
     pub fn thrust(&self, s: f64) -> f64 {
         let curvature = self.at(s).curvature;
-        0.5 * curvature * curvature + self.terms.constant
+        0.5 * curvature * curvature + self.constant
     }
 
     /// A point of the line of action and its direction, in the frame of s = 0: the line along the
     /// force, against it, on which curvature would be zero, from which it grows with distance (eq. 3.13). `None`
     /// for circles and straight lines without force.
     pub fn line_of_action(&self) -> Option<(Complex64, f64)> {
-        let Terms { k, b, .. } = self.terms;
+        let Terms { k, b, .. } = self.terms();
         let along = self.axis() / b;
         let foot = Complex64::i() * along * (k / b);
         foot.is_finite().then(|| (foot, along.arg()))
@@ -135,7 +141,7 @@ impl Elastica {
     /// Arc length from a vertex to the inflection beside it, or where there are none to the place
     /// of least curvature; infinite for the solitary wave, λ = ¼, and for straight lines.
     pub fn quarter_period(&self) -> f64 {
-        let Terms { p, w, excess, .. } = self.terms;
+        let Terms { p, w, excess, .. } = self.terms();
         // K(m) with m = w/p below 1, or p/w.
         2.0 * complete_k((excess.abs() / p.max(w)).sqrt()) / p.max(w).sqrt()
     }
@@ -143,7 +149,7 @@ impl Elastica {
     /// The place at arc length `s`, in constant time; accurate to about 1e-15·(1 + |s|·largest
     /// curvature), times |s| for the point.
     pub fn at(&self, s: f64) -> ElasticaPoint {
-        let terms = &self.terms;
+        let terms = self.terms();
         // Half of the way, where the arc's own middle is, and the arc from there.
         let half = terms.half_arc(s);
         let middle = terms.moved(&half);
@@ -161,32 +167,32 @@ impl Elastica {
 
     /// The same elastica with its place of reference at arc length `s`.
     pub fn moved(&self, s: f64) -> Elastica {
-        let half = self.terms.half_arc(s);
-        Elastica { terms: self.terms.moved(&half).moved(&half) }
+        let terms = self.terms();
+        let half = terms.half_arc(s);
+        let end = terms.moved(&half).moved(&half);
+        Elastica::new(end.k, end.k1, self.constant)
     }
 
     /// The elastica `factor` times as small: curvatures are so many times as large.
     pub fn scaled(&self, factor: f64) -> Elastica {
-        let Terms { k, k1, constant, .. } = self.terms;
-        Elastica::new(k * factor, k1 * factor * factor, constant * factor * factor)
+        let square = factor * factor;
+        Elastica::new(self.curvature * factor, self.slope * square, self.constant * square)
     }
 
     /// The same curve travelled the other way.
     pub fn reversed(&self) -> Elastica {
-        let Terms { k, k1, constant, .. } = self.terms;
-        Elastica::new(-k, k1, constant)
+        Elastica { curvature: -self.curvature, ..*self }
     }
 
     /// The mirror image.
     pub fn mirrored(&self) -> Elastica {
-        let Terms { k, k1, constant, .. } = self.terms;
-        Elastica::new(-k, -k1, constant)
+        Elastica { curvature: -self.curvature, slope: -self.slope, ..*self }
     }
 
     /// Curvature at arc length `s` and its first three derivatives.
     pub fn curvature_jet(&self, s: f64) -> [f64; 4] {
         let ElasticaPoint { curvature: k, slope: k1, .. } = self.at(s);
-        let constant = self.terms.constant;
+        let constant = self.constant;
         // κ″ = −(½κ² + C)κ, and its derivative.
         [k, k1, -(0.5 * k * k + constant) * k, -(1.5 * k * k + constant) * k1]
     }
@@ -194,13 +200,13 @@ impl Elastica {
     /// ∫ κ² ds over the arc from −½ to ½: twice the thrust along it less C (thesis eq. 3.23).
     pub fn arc_energy(&self) -> f64 {
         let (chord, _) = self.centred_arc(1.0);
-        2.0 * ((self.axis().conj() * chord).re - self.terms.constant)
+        2.0 * ((self.axis().conj() * chord).re - self.constant)
     }
 
     /// The arc from −s/2 to s/2: its chord, seen from the direction in the middle, and the directions
     /// at both ends.
     pub(crate) fn centred_arc(&self, s: f64) -> (Complex64, [f64; 2]) {
-        let (x, y, half_turn, lean) = self.terms.centred_arc(s);
+        let (x, y, half_turn, lean) = self.terms().centred_arc(s);
         (Complex64::new(x, y), [lean - half_turn, lean + half_turn])
     }
 

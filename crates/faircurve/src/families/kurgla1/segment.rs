@@ -111,11 +111,11 @@ impl SiMec {
 
     /// The elastica for arc length 1, with its place of reference in the middle.
     pub fn elastica(&self) -> Elastica {
-        self.from_start().moved(self.length / 2.0).scaled(self.length)
+        self.at_start().moved(self.length / 2.0).scaled(self.length)
     }
 
     /// The elastica, with its place of reference at the segment's start.
-    pub(super) fn from_start(&self) -> Elastica {
+    pub(super) fn at_start(&self) -> Elastica {
         let ([curvature, _], (sine, cosine)) = (self.curvatures(), self.angles.theta0.sin_cos());
         // κ′ = b cos φ says that the force is b along +y, from the start's direction, −theta0.
         let constant = -self.slope * sine - curvature * curvature / 2.0;

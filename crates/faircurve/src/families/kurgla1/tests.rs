@@ -22,7 +22,7 @@ fn square(n: i32, limit: f64) -> impl Iterator<Item = ChordAngles> {
 fn the_fit_ends_where_it_should_over_the_whole_square() {
     for angles in square(32, PI - 1e-5) {
         let fit = fit_si_mec(angles).unwrap();
-        let end = fit.from_start().at(fit.length);
+        let end = fit.at_start().at(fit.length);
         let point = end.point * Complex64::cis(-angles.theta0);
         let off = (point - 1.0).norm() / fit.length;
         assert!(off < 4e-15, "{angles:?} {off:e}");

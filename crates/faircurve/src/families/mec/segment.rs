@@ -70,6 +70,9 @@ pub fn fit_mec(angles: ChordAngles, constant: f64) -> Result<MecSegment, NoMec> 
 
 /// The same, with all that the spline wants to know.
 pub(super) fn fit(angles: ChordAngles, constant: f64) -> Result<Fit, NoMec> {
+    /// At the very end of the sheet the determinant is only known to the root of what angles are known
+    /// to; straight, it is 1/6.
+    const AT_THE_END: f64 = 1e-5;
     /// Beyond, the segment is straight but for its very ends, and its middle knows nothing of them.
     const STRONGEST: f64 = 4000.0;
     if !(constant.abs() <= STRONGEST && angles.theta0.is_finite() && angles.theta1.is_finite()) {
@@ -78,7 +81,7 @@ pub(super) fn fit(angles: ChordAngles, constant: f64) -> Result<Fit, NoMec> {
     let asked = Asked::new(angles, Last::Constant(constant));
     let found = newton(&asked, [0.0, 0.0, constant]).ok_or(NoMec::BeyondEnvelope)?;
     // The sheet of the straight line ends where the determinant is 0.
-    let is_on_sheet = determinant(&found.by(&asked)) > 0.0;
+    let is_on_sheet = determinant(&found.by(&asked)) > -AT_THE_END;
     is_on_sheet.then_some(found).ok_or(NoMec::BeyondEnvelope)
 }
 
@@ -230,7 +233,8 @@ fn solve(rows: &[[f64; 3]; 3], right: [f64; 3]) -> [f64; 3] {
 
 /// Newton's method. `None` where it doesn't arrive.
 pub(super) fn newton(asked: &Asked, start: [f64; 3]) -> Option<Fit> {
-    const MOST_STEPS: usize = 24;
+    /// At the end of the sheet a step only halves what is left.
+    const MOST_STEPS: usize = 32;
     /// Radians that a step may bend the segment.
     const MOST_BEND: f64 = 0.7;
     /// What is off in the end, at most, where tension or compression isn't large.

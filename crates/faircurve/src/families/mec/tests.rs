@@ -199,7 +199,7 @@ fn every_solution_is_one_and_the_principal_one_is_among_them() {
         }
     }
     // Figure 3.11: some lack the symmetry that the ends have.
-    let all = all_rectangular(angles(FRAC_PI_4, FRAC_PI_4), 2);
+    let all = all_rectangular(angles(FRAC_PI_4, FRAC_PI_4), 4);
     assert!(all.iter().any(|s| s.elastica.slope().abs() > 1e-3));
     assert!(all.iter().filter(|s| s.elastica.slope().abs() < 1e-8).count() >= 3);
     assert!(all.iter().all(|s| (s.elastica.lambda() - 0.5).abs() < 1e-10));
