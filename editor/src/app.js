@@ -122,6 +122,9 @@ export class App {
     if (open && this.settings.values.compare.length === 0) this.settings.set({ compare: ["euler", "hobby"].filter((name) => name !== this.editor.state.document.spline) });
     if (!open) this.settings.set({ compare: [] });
     this.compare.update();
+    // Beside the panel, not below it.
+    this.stage.inset = open ? this.compare.panel.offsetLeft + this.compare.panel.offsetWidth : 0;
+    this.stage.fit();
   }
 
   openTest() {

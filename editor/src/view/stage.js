@@ -146,11 +146,20 @@ export class Stage {
     this.draw();
   }
 
+  /** Pixels on the left that a panel covers. */
+  inset = 0;
+
   /** All of the drawing in view; an empty one shows the room of a letter. */
   fit() {
     const box = this.curves.reduce((/** @type {import("../core/geometry.js").Box | null} */ box, curve) => union(box, curve.box), null);
     const empty = { x0: -100, y0: -250, x1: 700, y1: 800 };
-    this.viewport.fit(box && (box.x1 > box.x0 || box.y1 > box.y0) ? box : union(box, empty) ?? empty);
+    const { viewport } = this;
+    // A panel takes its room only where enough is left.
+    const inset = this.inset < viewport.width / 2 ? this.inset : 0;
+    viewport.width -= inset;
+    viewport.fit(box && (box.x1 > box.x0 || box.y1 > box.y0) ? box : union(box, empty) ?? empty);
+    viewport.width += inset;
+    viewport.pan(inset, 0);
     this.invalidate();
   }
 
