@@ -11,9 +11,13 @@
 //! cargo xtask npm                 # build the npm package into target/npm
 //! cargo xtask npm --test          # and test it as npm packs it, in Node and in a browser
 //! cargo xtask npm --bench         # and measure it: sizes, times beside others, a drag
+//! cargo xtask editor              # build the npm package and the editor's site, and serve it
+//! cargo xtask editor --test       # and test it in Node and in a browser instead
+//! cargo xtask editor --build      # only build it, into target/editor
 //! ```
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "this is a program")]
 
+mod editor;
 mod family;
 mod header;
 mod install_capi;
@@ -31,7 +35,8 @@ hint: cargo xtask pictures [--check | --png DIR]
       cargo xtask speeds
       cargo xtask header [--check]
       cargo xtask install-capi --prefix DIR
-      cargo xtask npm [--test | --bench]";
+      cargo xtask npm [--test | --bench]
+      cargo xtask editor [--build | --test]";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -45,6 +50,7 @@ fn main() -> ExitCode {
         ["header", "--check"] => header::check(),
         ["install-capi", "--prefix", prefix] => install_capi::install(Path::new(prefix)),
         ["npm", rest @ ..] => npm(rest),
+        ["editor", rest @ ..] => editor::run(rest),
         _ => Err(USAGE.into()),
     };
     match done {

@@ -33,6 +33,11 @@ pub(crate) enum Command {
     ///
     /// Exit codes as for `solve`.
     Compare(CompareArgs),
+    /// Draw and edit in a browser on this machine, and save back to the file.
+    ///
+    /// Prints the editor's address and runs until it is stopped. Nothing but this machine can reach it, and
+    /// only who has the printed address can read or save the file. No other file is read or written.
+    Edit(EditArgs),
     /// Help or the version, as text to show.
     #[command(skip)]
     Shown(String),
@@ -222,6 +227,26 @@ pub(crate) struct CompareArgs {
     /// Exit with 0 though something was relaxed.
     #[arg(long)]
     pub(crate) allow_relaxed: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct EditArgs {
+    /// The drawing to open and save back to; one that isn't there yet is made by the first save. Formats
+    /// that can't be written are opened, too. Default: an empty drawing, kept by the browser.
+    #[arg(value_name = "FILE")]
+    pub(crate) file: Option<PathBuf>,
+
+    /// The port to listen on, on loopback. Default: any that is free.
+    #[arg(long, value_name = "PORT", default_value_t = 0, hide_default_value = true)]
+    pub(crate) port: u16,
+
+    /// The folder with the editor's page, as `cargo xtask editor` builds it. Default: where it is installed.
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) site: Option<PathBuf>,
+
+    /// Only print the address; don't open a browser.
+    #[arg(long)]
+    pub(crate) no_browser: bool,
 }
 
 /// How far to search, as given with --effort.

@@ -46,7 +46,7 @@ fn read_one(path: &Path, from: Option<&'static Kind>) -> Result<Source, Failure>
     }
 }
 
-fn kind_of(path: &Path) -> Result<&'static Kind, Failure> {
+pub(crate) fn kind_of(path: &Path) -> Result<&'static Kind, Failure> {
     if is_stdio(path) {
         return Ok(Kind::from_name("json")?);
     }

@@ -6,6 +6,7 @@
 mod args;
 mod beziers;
 mod compare;
+mod edit;
 mod failure;
 mod input;
 mod laws;
@@ -35,6 +36,7 @@ fn run(command: Command) -> Result<ExitCode, Failure> {
         Command::List(args) => list::run(&args),
         Command::Measure(args) => measure::run(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Edit(args) => edit::run(&args),
         Command::Shown(text) => output::to_stdout(text.as_bytes()).map(|()| ExitCode::SUCCESS),
     }
 }

@@ -253,7 +253,7 @@ pub(crate) fn to_stdout(bytes: &[u8]) -> Result<(), Failure> {
 }
 
 /// Writes beside the target and renames, so that the file is there whole or as it was.
-fn to_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
+pub(crate) fn to_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
     // A link stays a link: what it points to is written.
     let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let existing = fs::metadata(&path).ok();
