@@ -79,7 +79,7 @@ fn frame(page: &mut Page, cell: f64) {
     for i in -6..=6 {
         let (at, words) = (f64::from(i + 7) * cell, format!("{}°", i * STEP));
         page.words(Point::new(at, 14.3 * cell), "middle", &words);
-        page.words(Point::new(0.55 * cell, 14.0 * cell - at + 4.0), "end", &words);
+        page.words(Point::new(2.0, 14.0 * cell - at + 4.0), "start", &words);
     }
 }
 
