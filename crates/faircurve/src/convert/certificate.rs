@@ -466,58 +466,58 @@ fn bound_by_curvature(
     /// Parts are halved where what interpolation adds exceeds this share of the largest difference;
     /// the bound is that much too large.
     const SHARP: f64 = 0.005;
+    /// The same where the bound is within the limit already: ten times that takes a third of the parts.
+    const SHARP_ENOUGH: f64 = 0.05;
     /// At most so many parts: 4096 of them resolve a deviation of 1e-7 of the piece.
     const MOST_PARTS: usize = 4096;
     /// With so many the bound is fair where the limit can't be met.
     const FEW_PARTS: usize = 64;
     let Part { segment, from, to, params } = *part;
+    let off = |place: &Place| (cubic.at(place.param) - place.point).norm();
     let at = |s: f64, guess: f64, limits: [f64; 2]| {
         let (point, tangent) = in_frame(segment, s, origin, half);
-        let t = foot(cubic, point, tangent, guess).clamp(limits[0], limits[1]);
-        (t, (cubic.at(t) - point).norm())
+        let param = foot(cubic, point, tangent, guess).clamp(limits[0], limits[1]);
+        Place { s, point, param }
     };
-    let error = |t: f64, s: f64| (cubic.at(t) - in_frame(segment, s, origin, half).0).norm();
-    let bounded = |from: f64, to: f64, [t0, t1]: [f64; 2], errors: [f64; 2]| {
+    let bounded = |ends: [Place; 2]| {
+        let [Place { s: from, param: t0, .. }, Place { s: to, param: t1, .. }] = ends;
         let h = (to - from) / half;
         let curvature = segment.largest_curvature(from, to) * half;
         let bend = cubic.acceleration(t0).norm().max(cubic.acceleration(t1).norm());
         let width = t1 - t0;
         // Where curvature has no bound, as beside a cusp: a part of length h over a chord d is nowhere
         // farther than ½√(h² − d²) from the point that divides the chord as it divides the part.
-        let ends = [from, to].map(|s| in_frame(segment, s, origin, half).0);
-        let d = (ends[1] - ends[0]).norm().min(h);
+        let d = (ends[1].point - ends[0].point).norm().min(h);
         let in_ellipse = ((h - d) * (h + d) + 4.0 * f64::EPSILON * h * h).sqrt() / 2.0;
         let slack = (curvature * h * h / 8.0).min(in_ellipse) + bend * width * width / 8.0;
-        Bounded {
-            bound: errors[0].max(errors[1]) + slack,
-            slack,
-            from,
-            to,
-            params: [t0, t1],
-            errors,
-        }
+        Bounded { bound: off(&ends[0]).max(off(&ends[1])) + slack, slack, ends }
     };
-    let errors = [error(params[0], from), error(params[1], to)];
-    let mut largest = errors[0].max(errors[1]);
+    let ends = [(from, params[0]), (to, params[1])].map(|(s, param)| Place {
+        s,
+        point: in_frame(segment, s, origin, half).0,
+        param,
+    });
+    let mut largest = off(&ends[0]).max(off(&ends[1]));
     // The part with the largest bound first: when that is sharp, it is the answer.
-    let mut heap = BinaryHeap::from([bounded(from, to, params, errors)]);
+    let mut heap = BinaryHeap::from([bounded(ends)]);
     for parts in 1.. {
         let Some(top) = heap.pop() else { break };
-        let Bounded { bound, slack, from, to, params: [t0, t1], errors } = top;
+        let Bounded { bound, slack, ends: [start, end] } = top;
         // Slack falls with the square of a part's length: so many like this one would get below the limit.
-        let needed = (slack / (limit - largest)).sqrt() * (part.to - part.from) / (to - from);
+        let needed = (slack / (limit - largest)).sqrt() * (to - from) / (end.s - start.s);
         if parts > FEW_PARTS && (largest > limit || needed > MOST_PARTS as f64) {
             return bound;
         }
         // Rounding: below 1e-14 nothing gets sharper. `!` so that NaN ends here, too.
-        if !(slack > SHARP * largest) || slack < 1e-14 || parts >= MOST_PARTS || bound.is_nan() {
+        let sharp = if limit.is_finite() && bound <= limit { SHARP_ENOUGH } else { SHARP };
+        if !(slack > sharp * largest) || slack < 1e-14 || parts >= MOST_PARTS || bound.is_nan() {
             return if bound.is_nan() { f64::INFINITY } else { bound };
         }
-        let middle = (from + to) / 2.0;
-        let (t, off) = at(middle, (t0 + t1) / 2.0, [t0, t1]);
-        largest = largest.max(off);
-        heap.push(bounded(from, middle, [t0, t], [errors[0], off]));
-        heap.push(bounded(middle, to, [t, t1], [off, errors[1]]));
+        let params = [start.param, end.param];
+        let middle = at((start.s + end.s) / 2.0, (params[0] + params[1]) / 2.0, params);
+        largest = largest.max(off(&middle));
+        heap.push(bounded([start, middle]));
+        heap.push(bounded([middle, end]));
     }
     f64::INFINITY
 }
@@ -527,10 +527,15 @@ struct Bounded {
     bound: f64,
     /// What interpolation adds to it.
     slack: f64,
-    from: f64,
-    to: f64,
-    params: [f64; 2],
-    errors: [f64; 2],
+    ends: [Place; 2],
+}
+
+/// A place on a segment and the parameter of the cubic's point beside it.
+#[derive(Clone, Copy)]
+struct Place {
+    s: f64,
+    point: Complex64,
+    param: f64,
 }
 
 impl Ord for Bounded {
