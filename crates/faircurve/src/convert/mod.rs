@@ -60,7 +60,7 @@ impl Conversion {
 }
 
 /// The curve as straight lines and cubic Béziers that deviate from it by at most `accuracy`, in user
-/// units.
+/// units, or as little as can be proved if that is less ([`Options::accuracy`]).
 ///
 /// Knots are end points of Béziers, bit for bit; tangents there are those of the curve; segments
 /// that are Béziers pass through untouched; straight segments are lines; segments that end where they start leave no trace; a closed curve ends on its start and

@@ -109,8 +109,8 @@ names!(Cuts:
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// The largest error of each cubic, in the metric's units. Errors below 1e-12 of a stretch's length, zero,
-    /// negative numbers and NaN count as that.
+    /// The largest error of each cubic, in the metric's units. Errors below 1e-12 of a stretch's length (1e-8
+    /// where not all of it is spirals), zero, negative numbers and NaN count as that.
     pub accuracy: f64,
     /// How errors are measured.
     pub metric: Metric,
