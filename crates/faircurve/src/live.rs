@@ -12,6 +12,8 @@ use kurbo::{BezPath, PathEl, Point};
 
 use crate::convert::{self, Options};
 use crate::families::euler::fit_euler;
+use crate::families::spiro::PolynomialSpirals;
+use crate::four_param::family::FourParamFamily;
 use crate::frame::{ChordAngles, direction, wrap_angle};
 use crate::outline::{Contour, Knot};
 use crate::plan::InputError;
@@ -313,8 +315,7 @@ fn distance_bound(a: &Segment, b: &Segment) -> f64 {
     match (a.kappa(), b.kappa()) {
         (Some(a_k), Some(b_k)) => {
             // For arc length 1, directions from the middle differ by at most this …
-            let weights = [1.0 / 2.0, 1.0 / 8.0, 1.0 / 48.0, 1.0 / 384.0];
-            let turn: f64 = (0..4).map(|j| weights[j] * (a_k[j] - b_k[j]).abs()).sum();
+            let turn = PolynomialSpirals.bend(std::array::from_fn(|j| a_k[j] - b_k[j]));
             // … points from the middle by at most half of it, and the whole is scaled and turned
             // so that both its ends are where they were, which moves nothing by more than its ends.
             2.0 * turn * a.length().max(b.length()) / chord_over_arc(a).min(chord_over_arc(b))

@@ -49,10 +49,8 @@ function drawGrid({ context, viewport, colours }) {
     const p = viewport.toScreen({ x: at, y: at });
     const [x, y] = [Math.round(p.x) + 0.5, Math.round(p.y) + 0.5];
     context.strokeStyle = colour;
-    context.beginPath();
-    context.moveTo(upright ? x : 0, upright ? 0 : y);
-    context.lineTo(upright ? x : viewport.width, upright ? viewport.height : y);
-    context.stroke();
+    if (upright) strokeLine(context, { x, y: 0 }, { x, y: viewport.height });
+    else strokeLine(context, { x: 0, y }, { x: viewport.width, y });
   };
   if (step) {
     for (let i = Math.ceil(x0 / step); i * step <= x1; i++) if (i !== 0) line(true, i * step, i % 10 === 0 ? colours.gridStrong : colours.grid);
@@ -127,20 +125,16 @@ function drawBeziers(scene) {
   for (const curve of curves) {
     // Those of a curve in the hand must not hold up the hand.
     if (scene.isInHand && !curve.isQuick(settings.accuracy)) continue;
-    /** @type {import("../core/geometry.js").Point | null} */
+    /** @type {Point | null} */
     let last = null;
-    const joint = (/** @type {import("../core/geometry.js").Point} */ p) => {
+    const joint = (/** @type {Point} */ p) => {
       context.fillStyle = colours.bezier;
       context.fillRect(p.x - 2.5, p.y - 2.5, 5, 5);
     };
-    const arm = (/** @type {import("../core/geometry.js").Point} */ p, /** @type {import("../core/geometry.js").Point} */ q) => {
+    const arm = (/** @type {Point} */ p, /** @type {Point} */ q) => {
       context.strokeStyle = colours.bezierArm;
-      context.beginPath();
-      context.moveTo(p.x, p.y);
-      context.lineTo(q.x, q.y);
-      context.stroke();
-      context.beginPath();
-      context.arc(q.x, q.y, 2.2, 0, 2 * Math.PI);
+      strokeLine(context, p, q);
+      circle(context, q, 2.2);
       context.strokeStyle = colours.bezier;
       context.stroke();
     };
@@ -161,8 +155,7 @@ function drawExtrema({ context, curves, colours, viewport }) {
   for (const curve of curves) {
     for (const p of curve.curvatureExtrema) {
       const { x, y } = viewport.toScreen(p);
-      context.beginPath();
-      context.arc(x, y, 3, 0, 2 * Math.PI);
+      circle(context, { x, y }, 3);
       context.fillStyle = colours.extremum;
       context.fill();
     }
@@ -206,12 +199,8 @@ function drawHandles(scene) {
   contours.forEach(({ knots }) => knots.forEach((knot) => {
     for (const { tip, at } of handlesOf(viewport, knot)) {
       context.strokeStyle = colours.handle;
-      context.beginPath();
-      context.moveTo(at.x, at.y);
-      context.lineTo(tip.x, tip.y);
-      context.stroke();
-      context.beginPath();
-      context.arc(tip.x, tip.y, 4, 0, 2 * Math.PI);
+      strokeLine(context, at, tip);
+      circle(context, tip, 4);
       context.fillStyle = colours.paper;
       context.fill();
       context.stroke();
@@ -237,8 +226,7 @@ function drawKnots(scene) {
       const ghost = overlay.ghost?.contour === contour && overlay.ghost.knot === k;
       const ink = relaxed.has(k) ? colours.relaxed : selected && !ghost ? colours.selected : colours.knot;
       if (selected && !ghost) {
-        context.beginPath();
-        context.arc(x, y, 9.5, 0, 2 * Math.PI);
+        circle(context, { x, y }, 9.5);
         context.fillStyle = colours.selectedHalo;
         context.fill();
       }
@@ -304,8 +292,23 @@ function drawOverlay(scene) {
     const { x, y } = viewport.toScreen(overlay.mark);
     context.strokeStyle = colours.selected;
     context.lineWidth = 1.6;
-    context.beginPath();
-    context.arc(x, y, overlay.mark.closes ? 10 : 6, 0, 2 * Math.PI);
+    circle(context, { x, y }, overlay.mark.closes ? 10 : 6);
     context.stroke();
   }
+}
+
+/** @typedef {import("../core/geometry.js").Point} Point */
+
+/** @param {CanvasRenderingContext2D} context @param {Point} from @param {Point} to */
+function strokeLine(context, from, to) {
+  context.beginPath();
+  context.moveTo(from.x, from.y);
+  context.lineTo(to.x, to.y);
+  context.stroke();
+}
+
+/** Begins a circle, to be filled or stroked. @param {CanvasRenderingContext2D} context @param {Point} centre @param {number} radius */
+function circle(context, centre, radius) {
+  context.beginPath();
+  context.arc(centre.x, centre.y, radius, 0, 2 * Math.PI);
 }

@@ -21,6 +21,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::null_mut;
 
 use abi::{BezCtx, LsBezCtx, RETRO_VER1, REVERSE_SRC, SpiroCp, SpiroSeg};
+use drawing::Call;
 use points::{Form, Points};
 use segments::Scale;
 
@@ -74,7 +75,7 @@ unsafe fn draw(
     let Some(length) = length.filter(|_| !first.is_null() && !bc.is_null()) else {
         return FAILED;
     };
-    let calls = guarded(None, || {
+    let calls = || {
         if ncq & REVERSE_SRC != 0 {
             // SAFETY: by contract; the slice ends here.
             points::reverse(unsafe { std::slice::from_raw_parts_mut(first, length) });
@@ -83,8 +84,21 @@ unsafe fn draw(
         let list = unsafe { std::slice::from_raw_parts(first, length) };
         let points = Points::read(list, form).filter(|_| points::is_finite(list))?;
         drawing::draw(&points.contour, ncq)
-    });
-    let Some(calls) = calls else { return FAILED };
+    };
+    // SAFETY: by contract.
+    unsafe { hand_over(calls, ncq, bc) }
+}
+
+/// Hands what `calls` comes to to the caller's context; nothing where that is nothing, or it panics.
+///
+/// # Safety
+/// As for [`pen::hand_over`].
+unsafe fn hand_over(
+    calls: impl FnOnce() -> Option<Vec<Call>>,
+    ncq: c_int,
+    bc: *mut BezCtx,
+) -> c_int {
+    let Some(calls) = guarded(None, calls) else { return FAILED };
     // SAFETY: by contract.
     guarded(FAILED, || unsafe {
         pen::hand_over(&calls, ncq, bc);
@@ -331,7 +345,7 @@ unsafe fn draw_array(
     let Some(length) = counted(n).filter(|_| !s.is_null() && !bc.is_null()) else {
         return FAILED;
     };
-    let calls = guarded(None, || {
+    let calls = || {
         // SAFETY: by contract.
         let (array, source) = unsafe {
             let source = (!src.is_null()).then(|| std::slice::from_raw_parts(src, length));
@@ -344,13 +358,9 @@ unsafe fn draw_array(
         };
         let placed = segments::placed(array, source, scale)?;
         Some(drawing::calls(placed.start, &placed.segments, placed.open, ncq))
-    });
-    let Some(calls) = calls else { return FAILED };
+    };
     // SAFETY: by contract.
-    guarded(FAILED, || unsafe {
-        pen::hand_over(&calls, ncq, bc);
-        DONE
-    })
+    unsafe { hand_over(calls, ncq, bc) }
 }
 
 /// Draws an array: 1, or 0 and nothing is drawn. With `src`, the points that it was made of, curves end
