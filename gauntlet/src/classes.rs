@@ -68,12 +68,12 @@ struct Tally {
 ///
 /// # Errors
 /// If there is no such class.
-pub(crate) fn contours(name: &str, cases: usize) -> Result<Vec<(String, Contour)>, Failure> {
+pub(crate) fn contours(name: &str, cases: Range<usize>) -> Result<Vec<(String, Contour)>, Failure> {
     let class = classes().into_iter().find(|class| class.name == name).ok_or_else(|| Failure {
         message: format!("there is no class `{name}`"),
         hint: catalog::suggest(name, classes().iter().map(|class| class.name.as_str())),
     })?;
-    Ok((0..cases).map(|case| (case_name(&class, case), class.contour(case))).collect())
+    Ok(cases.map(|case| (case_name(&class, case), class.contour(case))).collect())
 }
 
 /// The contour of a name that [`contours`] gives.

@@ -133,9 +133,12 @@ enum Command {
         /// The class of that name instead
         #[arg(long, conflicts_with = "files", required_unless_present = "files")]
         class: Option<String>,
-        /// Of a class, the first contours
+        /// Of a class, so many contours
         #[arg(long, default_value_t = 20)]
         cases: usize,
+        /// The first of them
+        #[arg(long, default_value_t = 0, value_name = "CASE")]
+        from: usize,
         /// Time for each contour
         #[arg(long, default_value_t = 60.0)]
         seconds: f64,
@@ -218,9 +221,9 @@ fn run(arguments: &Arguments) -> Result<Report, Failure> {
         Command::Classes { filter, cases, from } => {
             classes::run(filter, *from..from.saturating_add(*cases))
         }
-        Command::Search { files, class, cases, seconds, seed, yardstick } => {
+        Command::Search { files, class, cases, from, seconds, seed, yardstick } => {
             let contours = match class {
-                Some(class) => classes::contours(class, *cases)?,
+                Some(class) => classes::contours(class, *from..from.saturating_add(*cases))?,
                 None => {
                     fonts_input::read(files)?.into_iter().map(|c| (c.name(), c.contour)).collect()
                 }

@@ -1,8 +1,9 @@
 //! Contours that once broke a promise, found by the targets in `fuzz/`; each test says which.
 
+use faircurve::catalog::{self, Params};
 use faircurve::convert::to_bezpath;
 use faircurve::kurbo::{PathEl, Point};
-use faircurve::{Contour, InputError, Join, Knot, Place, Segment, Solution, catalog, solve};
+use faircurve::{Contour, InputError, Join, Knot, Place, Segment, Solution, solve};
 
 fn solved(spline: &str, contour: &Contour) -> Solution {
     solve(contour, &*catalog::spline(spline).unwrap()).unwrap()
@@ -91,6 +92,24 @@ fn nothing_is_relaxed_to_itself() {
             .curvature_out(0.0),
     ]);
     for relaxed in solved("spiro", &contour).report.relaxed {
+        assert_ne!(relaxed.asked, relaxed.got, "{relaxed:?}");
+    }
+}
+
+/// Drawn with a shape that promises a tangent only, a knot whose equation isn't met is smooth all the
+/// same: what it lacks is the spline's own condition.
+#[test]
+fn a_tangent_that_the_rule_did_not_give_is_not_relaxed_to_itself() {
+    let contour = Contour::open([
+        Knot::new((1.221_015_077_810_775_5e26, 114.0)).tangent_out((1e-18, 1e-18)),
+        Knot::new((0.0, 0.0)),
+        Knot::new((2.289_403_270_895_204e26, 213.75)),
+        Knot::new((30.0, -13670.0)),
+    ]);
+    let spline = catalog::build("circle", &Params::new().with("shape", "hobby")).unwrap();
+    let relaxed = solve(&contour, &*spline).unwrap().report.relaxed;
+    assert!(!relaxed.is_empty());
+    for relaxed in relaxed {
         assert_ne!(relaxed.asked, relaxed.got, "{relaxed:?}");
     }
 }

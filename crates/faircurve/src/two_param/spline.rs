@@ -102,6 +102,13 @@ impl<R: TangentRule, S: SegmentShape> TwoParamSpline<R, S> {
         let is_end = !run.closed && (knot == 0 || knot + 1 == run.knots.len());
         let own = self.default_join().name();
         let (asked, got, reason) = match (is_end, is_smooth) {
+            // Drawn with a shape that promises no more than a tangent.
+            (false, true) if own == Join::G1.name() => (
+                self.info.name,
+                Join::G1.name(),
+                "no tangent was found here that this spline's equations hold for; move the knot or \
+                 a neighbour, or add a knot where the curve turns most",
+            ),
             (false, true) => (
                 own,
                 Join::G1.name(),
