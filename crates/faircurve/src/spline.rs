@@ -61,7 +61,7 @@ impl Effort {
     pub const NONE: Effort = Effort(0.0);
 
     /// Segments evaluated for one contour at the default effort; 200 to 250 ns each.
-    const EVALUATIONS: f64 = 180_000.0;
+    const EVALUATIONS: f64 = 150_000.0;
 
     /// So many times the default; what isn't a number counts as 0, and more than 10⁵ (over an hour a
     /// contour) as that.
