@@ -1,7 +1,8 @@
 //! Any tangents drawn by any shape, and hostile input: nothing leaves the range of numbers.
 
 use faircurve::catalog::{self, ENTRIES, ParamKind, Params};
-use faircurve::kurbo::{Point, Vec2};
+use faircurve::convert::{Options, convert};
+use faircurve::kurbo::{ParamCurve, Point, Vec2};
 use faircurve::{Contour, Effort, Join, Knot, Solution, Spline, Status, solve, solve_with};
 use proptest::prelude::*;
 
@@ -120,6 +121,66 @@ fn shapes_keep_the_tangents_of_the_rule() {
             for (a, b) in own.knots.iter().zip(&solution.knots) {
                 let off = a.direction_out.unwrap() - b.direction_out.unwrap();
                 assert!(off.sin().abs() < 1e-9 && off.cos() > 0.0, "{} {option}", info.name);
+            }
+        }
+    }
+}
+
+/// What segments say of the largest curvature, and of its derivatives', holds everywhere between two places: proofs rest on
+/// it.
+#[test]
+fn curvature_bounds_hold() {
+    const PLACES: u32 = 64;
+    let contours = [
+        Contour::closed([(0.0, 0.0), (100.0, 20.0), (150.0, 120.0), (60.0, 170.0), (-30.0, 90.0)]),
+        Contour::open([(0.0, 0.0), (80.0, 90.0), (160.0, 10.0), (170.0, 120.0), (20.0, 150.0)]),
+        Contour::closed([(0.0, 0.0), (10.0, 1.0), (90.0, -60.0), (80.0, 70.0)]),
+    ];
+    let mut known = 0;
+    each_choice(|name, spline| {
+        for contour in &contours {
+            for segment in solve(contour, spline).unwrap().curve.segments() {
+                let length = segment.length();
+                for (from, to) in [(0.0, 1.0), (0.0, 0.5), (0.3, 0.4), (0.9, 1.0), (0.62, 0.622)] {
+                    let bounds = segment.curvature_bounds(from * length, to * length);
+                    assert!(bounds.into_iter().all(f64::is_finite), "{name}: {bounds:?}");
+                    for i in 0..=PLACES {
+                        let along = from + (to - from) * f64::from(i) / f64::from(PLACES);
+                        let jet = segment.curvature_jet(along * length);
+                        for order in 0..3 {
+                            let rounding = 1e-9 * bounds[order].min(1e9) + 1e-12;
+                            let (size, bound) = (jet[order].abs(), bounds[order]);
+                            assert!(size <= bound + rounding, "{name} {order}: {size} {bound}");
+                        }
+                    }
+                }
+            }
+        }
+    });
+    for name in ["spiro", "euler", "mvc", "mec", "kurgla1", "simec"] {
+        let curve = solve(&contours[0], &*catalog::spline(name).unwrap()).unwrap().curve;
+        let bounds = curve.segments().iter().map(|s| s.curvature_bounds(0.0, s.length()));
+        known += bounds.filter(|bounds| bounds.iter().all(|bound| *bound < f64::MAX)).count();
+    }
+    assert_eq!(known, 6 * contours[0].knots.len(), "bounds that are no bounds");
+}
+
+/// The bound of a conversion isn't below what is measured, on every spline.
+#[test]
+fn bounds_of_conversions_hold() {
+    let contour =
+        Contour::closed([(0.0, 0.0), (100.0, 20.0), (150.0, 120.0), (60.0, 170.0), (-30.0, 90.0)]);
+    for info in ENTRIES {
+        let curve = solve(&contour, &*catalog::spline(info.name).unwrap()).unwrap().curve;
+        for accuracy in [1.0, 1e-2, 1e-4] {
+            let result = convert(&curve, &Options::new(accuracy));
+            assert!(result.bound <= accuracy, "{}: {:e}", info.name, result.bound);
+            for cubic in result.path.segments() {
+                for t in [0.1, 0.25, 0.4, 0.5, 0.6, 0.75, 0.9] {
+                    let near = 0.01 * result.bound + 1e-7;
+                    let (_, _, off) = curve.nearest(cubic.eval(t), near).unwrap();
+                    assert!(off <= result.bound + near, "{}: {off:e}", info.name);
+                }
             }
         }
     }

@@ -28,10 +28,18 @@
 //! What is left of the truth is small: δ = π/64 makes the bound of a deviation of degree 6 0.3 % too large, and the part of e along the
 //! tangent, which a perfect φ would not have, enters squared; where it exceeds a tenth the piece is halved.
 //!
-//! **Other shapes** answer only for the size of their curvature, and their arc length. There φ is linear between the feet at m
-//! places, and on each part |e| ≤ max(|eᵢ|, |eᵢ₊₁|) + min(K·h²/8, ½√(h² − d²)) + max|B″|·φ′²·h²/8 with h the part's arc length and
-//! d its chord: linear interpolation again, K the segment's own bound of its curvature; or, where that is infinite or large, at a cusp,
-//! by the ellipse of all points that a curve of length h can reach between its ends.
+//! **Other shapes** answer only for bounds of |κ|, |κ′| and |κ″|, for the first alone, or for their arc length. There φ is a cubic between the
+//! feet at m places, with the slopes at which e′ has no part along the tangent. On each part, of arc length h, z is no farther from the cubic
+//! with its ends and end tangents (Hermite's) than h⁴/384 times
+//!
+//! ```text
+//! |z⁗| ≤ |(κ″ − κ³, 3κκ′)|,
+//! ```
+//!
+//! and the polynomial of degree 9 by which B(φ) differs from that cubic is bounded by the first inequality on a grid of eighths.
+//! Where the derivatives have no bound or φ wouldn't grow, φ is linear, and |e| ≤ max(|eᵢ|, |eᵢ₊₁|) + min(K·h²/8, ½√(h² − d²)) + max|B″|·φ′²·h²/8
+//! with d the part's chord: linear interpolation again, K the segment's bound of its curvature; or, where that is infinite or large, at
+//! a cusp, by the ellipse of all points that a curve of length h can reach between its ends.
 //!
 //! **Rounding** isn't proved but allowed for: [`rounding`].
 
@@ -474,35 +482,46 @@ fn bound_by_curvature(
     const FEW_PARTS: usize = 64;
     let Part { segment, from, to, params } = *part;
     let off = |place: &Place| (cubic.at(place.param) - place.point).norm();
+    let place = |s: f64, param: f64| {
+        let off = (segment.point(s) - origin) / half;
+        Place { s, point: Complex64::new(off.x, off.y), direction: segment.direction(s), param }
+    };
     let at = |s: f64, guess: f64, limits: [f64; 2]| {
-        let (point, tangent) = in_frame(segment, s, origin, half);
-        let param = foot(cubic, point, tangent, guess).clamp(limits[0], limits[1]);
-        Place { s, point, param }
+        let here = place(s, guess);
+        let tangent = Complex64::from_polar(1.0, here.direction);
+        let param = foot(cubic, here.point, tangent, guess).clamp(limits[0], limits[1]);
+        Place { param, ..here }
     };
     let bounded = |ends: [Place; 2]| {
         let [Place { s: from, param: t0, .. }, Place { s: to, param: t1, .. }] = ends;
-        let h = (to - from) / half;
-        let curvature = segment.largest_curvature(from, to) * half;
+        let (h, width) = ((to - from) / half, t1 - t0);
+        let [curvature, first, second] = segment.curvature_bounds(from, to);
+        let bounds = [curvature * half, first * half.powi(2), second * half.powi(3)];
+        let hermite = from_hermite(h, bounds);
+        if hermite < 1.0
+            && let Some([least, most]) = largest_from_hermite(cubic, &ends, h)
+        {
+            return Bounded { least: least - hermite, bound: most + hermite, ends };
+        }
         let bend = cubic.acceleration(t0).norm().max(cubic.acceleration(t1).norm());
-        let width = t1 - t0;
         // Where curvature has no bound, as beside a cusp: a part of length h over a chord d is nowhere
         // farther than ½√(h² − d²) from the point that divides the chord as it divides the part.
         let d = (ends[1].point - ends[0].point).norm().min(h);
         let in_ellipse = ((h - d) * (h + d) + 4.0 * f64::EPSILON * h * h).sqrt() / 2.0;
-        let slack = (curvature * h * h / 8.0).min(in_ellipse) + bend * width * width / 8.0;
-        Bounded { bound: off(&ends[0]).max(off(&ends[1])) + slack, slack, ends }
+        let slack = (curvature * half * h * h / 8.0).min(in_ellipse) + bend * width * width / 8.0;
+        let least = off(&ends[0]).max(off(&ends[1]));
+        Bounded { least, bound: least + slack, ends }
     };
-    let ends = [(from, params[0]), (to, params[1])].map(|(s, param)| Place {
-        s,
-        point: in_frame(segment, s, origin, half).0,
-        param,
-    });
-    let mut largest = off(&ends[0]).max(off(&ends[1]));
+    let ends = [place(from, params[0]), place(to, params[1])];
+    let whole = bounded(ends);
+    // What the deviation is somewhere.
+    let mut largest = whole.least;
     // The part with the largest bound first: when that is sharp, it is the answer.
-    let mut heap = BinaryHeap::from([bounded(ends)]);
+    let mut heap = BinaryHeap::from([whole]);
     for parts in 1.. {
         let Some(top) = heap.pop() else { break };
-        let Bounded { bound, slack, ends: [start, end] } = top;
+        let Bounded { bound, ends: [start, end], .. } = top;
+        let slack = bound - largest;
         // Slack falls with the square of a part's length: so many like this one would get below the limit.
         let needed = (slack / (limit - largest)).sqrt() * (to - from) / (end.s - start.s);
         if parts > FEW_PARTS && (largest > limit || needed > MOST_PARTS as f64) {
@@ -515,19 +534,75 @@ fn bound_by_curvature(
         }
         let params = [start.param, end.param];
         let middle = at((start.s + end.s) / 2.0, (params[0] + params[1]) / 2.0, params);
-        largest = largest.max(off(&middle));
-        heap.push(bounded([start, middle]));
-        heap.push(bounded([middle, end]));
+        for part in [[start, middle], [middle, end]] {
+            let part = bounded(part);
+            largest = largest.max(part.least);
+            heap.push(part);
+        }
     }
     f64::INFINITY
 }
 
 /// Part of the work of [`bound_by_curvature`], ordered by its bound.
 struct Bounded {
+    /// What the largest deviation on the part is at least, or nearly.
+    least: f64,
+    /// And at most.
     bound: f64,
-    /// What interpolation adds to it.
-    slack: f64,
     ends: [Place; 2],
+}
+
+/// How far a part of length h with these bounds of |κ|, |κ′| and |κ″| is at most from the cubic with its ends and end
+/// tangents.
+fn from_hermite(h: f64, [k, first, second]: [f64; 3]) -> f64 {
+    (second + k * k * k).hypot(3.0 * k * first) * h.powi(4) / 384.0
+}
+
+/// How far a cubic is from the cubic with the ends and end tangents of a part of length h: by about how much at
+/// least, and at most. `None` where the substitution would not grow.
+fn largest_from_hermite(cubic: &LocalCubic, ends: &[Place; 2], h: f64) -> Option<[f64; 2]> {
+    const STEPS: u32 = 8;
+    let [start, end] = ends;
+    let width = end.param - start.param;
+    let tangents = [start, end].map(|place| Complex64::from_polar(1.0, place.direction));
+    let [d0, d1] = [0, 1].map(|i| h / dot(cubic.velocity(ends[i].param), tangents[i]));
+    // A cubic with such slopes grows (Fritsch and Carlson 1980).
+    let may_be = 0.0..=3.0 * width;
+    if !(may_be.contains(&d0) && may_be.contains(&d1)) {
+        return None;
+    }
+    // φ less its start, and its powers, by powers of u from 1, 2 and 3 on.
+    let phi = [d0, 3.0 * width - 2.0 * d0 - d1, d0 + d1 - 2.0 * width];
+    let mut q = [Complex64::ZERO; 10];
+    let t = start.param;
+    let by_power = [cubic.velocity(t), cubic.acceleration(t) / 2.0, cubic.0[3]];
+    for (i, a) in phi.iter().enumerate() {
+        q[i + 1] += by_power[0] * a;
+        for (j, b) in phi.iter().enumerate() {
+            q[i + j + 2] += by_power[1] * (a * b);
+            for (k, c) in phi.iter().enumerate() {
+                q[i + j + k + 3] += by_power[2] * (a * b * c);
+            }
+        }
+    }
+    let chord = end.point - start.point;
+    let [s0, s1] = tangents.map(|tangent| tangent * h);
+    q[0] = cubic.at(t) - start.point;
+    q[1] -= s0;
+    q[2] -= chord * 3.0 - s0 * 2.0 - s1;
+    q[3] -= s0 + s1 - chord * 2.0;
+    let turn = end.direction - start.direction;
+    let (mut least, mut largest) = (0.0f64, 0.0f64);
+    for step in 0..=STEPS {
+        let u = f64::from(step) / f64::from(STEPS);
+        let off = q.iter().rev().fold(Complex64::ZERO, |sum, c| sum * u + c);
+        let normal = Complex64::from_polar(1.0, start.direction + turn * u) * Complex64::I;
+        least = least.max(dot(off, normal).abs());
+        largest = largest.max(off.norm_sqr());
+    }
+    let bend: f64 = q.iter().enumerate().map(|(j, c)| (j * j - j) as f64 * c.norm()).sum();
+    let largest = largest.sqrt() + bend / 8.0 / f64::from(STEPS * STEPS);
+    largest.is_finite().then_some([least, largest])
 }
 
 /// A place on a segment and the parameter of the cubic's point beside it.
@@ -535,6 +610,7 @@ struct Bounded {
 struct Place {
     s: f64,
     point: Complex64,
+    direction: f64,
     param: f64,
 }
 

@@ -140,12 +140,14 @@ fn append_stretch(result: &mut Conversion, segments: &[Segment], start: f64, opt
     /// Finer is rounding, as a part of the length, and in multiples of what rounding is allowed for.
     const FINEST: f64 = 1e-12;
     const ROUNDINGS: f64 = 4.0;
-    /// As a part of the length, where segments answer for no more than the size of their curvature:
-    /// the certificate takes as many parts as the accuracy's inverse root, and finer takes minutes.
+    /// As a part of the length, where segments don't answer for the derivatives of their curvature: the
+    /// certificate takes as many parts as the accuracy's inverse root, and finer takes minutes.
     const FINEST_BY_CURVATURE: f64 = 1e-8;
     let stretch = Stretch::new(segments);
-    let are_spirals = segments.iter().all(|segment| matches!(segment.shape(), Shape::Spiral(_)));
-    let part = if are_spirals { FINEST } else { FINEST_BY_CURVATURE };
+    let are_smooth = segments.iter().all(|segment| {
+        segment.curvature_bounds(0.0, segment.length()).into_iter().all(|bound| bound < f64::MAX)
+    });
+    let part = if are_smooth { FINEST } else { FINEST_BY_CURVATURE };
     let finest = part * stretch.length() + ROUNDINGS * certificate::rounding_of(segments);
     let accuracy = if options.accuracy > finest { options.accuracy } else { finest };
     let fitter = Fitter {

@@ -110,7 +110,8 @@ names!(Cuts:
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// The largest error of each cubic, in the metric's units. Errors below 1e-12 of a stretch's length (1e-8
-    /// where not all of it is spirals), zero, negative numbers and NaN count as that.
+    /// where a segment has no bounds of its curvature's derivatives,
+    /// [`Segment::curvature_bounds`](crate::Segment::curvature_bounds)), zero, negative numbers and NaN count as that.
     pub accuracy: f64,
     /// How errors are measured.
     pub metric: Metric,

@@ -237,8 +237,8 @@ impl<C: ParametricCurve> UnitCurve for Measured<C> {
         &self.breaks
     }
 
-    fn largest_curvature(&self, _from: f64, _to: f64) -> f64 {
-        f64::MAX
+    fn curvature_bounds(&self, _from: f64, _to: f64) -> [f64; 3] {
+        [f64::MAX; 3]
     }
 
     fn bezier(&self, from: f64, to: f64) -> Option<PathSeg> {

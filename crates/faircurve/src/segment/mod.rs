@@ -758,46 +758,63 @@ impl Segment {
 
     /// An upper bound of |κ| between two arc lengths; [`f64::MAX`] where none is known.
     pub fn largest_curvature(&self, from: f64, to: f64) -> f64 {
+        self.curvature_bounds(from, to)[0]
+    }
+
+    /// Upper bounds of |κ|, |κ′| and |κ″| between two arc lengths, by arc length and in units of the
+    /// drawing; each is [`f64::MAX`] where none is known.
+    pub fn curvature_bounds(&self, from: f64, to: f64) -> [f64; 3] {
         if self.length == 0.0 {
-            return 0.0;
+            return [0.0; 3];
         }
-        match &self.shape {
-            Shape::Line => 0.0,
+        let (bounds, unit) = match &self.shape {
+            Shape::Line => return [0.0; 3],
             Shape::Spiral(spiral) => {
                 let (a, b) = (self.local(from), self.local(to));
-                let jet = curvature_jet(spiral.k, (a + b) / 2.0);
+                let [k, first, second, third] =
+                    curvature_jet(spiral.k, (a + b) / 2.0).map(f64::abs);
                 let half = (b - a) / 2.0;
-                let bound = jet[0].abs()
-                    + half
-                        * (jet[1].abs() + half * (jet[2].abs() / 2.0 + half * jet[3].abs() / 6.0));
-                bound / self.length
+                let bounds = [
+                    k + half * (first + half * (second / 2.0 + half * third / 6.0)),
+                    first + half * (second + half * third / 2.0),
+                    second + half * third,
+                ];
+                (bounds, self.length)
             }
             Shape::Elastica(elastica) => {
-                // κ′ = −b sin θ.
+                // κ′ = −b sin θ, κ″ = −b κ cos θ.
                 let (a, b) = (self.local(from), self.local(to));
+                let force = elastica.force().norm();
                 let ends = elastica.at(a).curvature.abs().max(elastica.at(b).curvature.abs());
-                let between = ends + elastica.force().norm() * (b - a).abs() / 2.0;
-                between.min(elastica.largest_curvature()).max(ends) / self.length
+                let between = ends + force * (b - a).abs() / 2.0;
+                let k = between.min(elastica.largest_curvature()).max(ends);
+                ([k, force, force * k], self.length)
             }
             Shape::Unit(piece) => {
                 let scale = self.scale(piece);
                 let (a, b) = (piece.place(from / scale), piece.place(to / scale));
-                (piece.curve.largest_curvature(a.min(b), a.max(b)) / scale).min(f64::MAX)
+                (piece.curve.curvature_bounds(a.min(b), a.max(b)), scale)
             }
             Shape::Chain(members) => {
                 let mut before = 0.0;
-                let mut largest = 0.0f64;
+                let mut largest = [0.0f64; 3];
                 for member in members.iter() {
                     let after = before + member.length;
                     if after >= from && before <= to {
                         let (a, b) = ((from - before).max(0.0), (to - before).min(member.length));
-                        largest = largest.max(member.largest_curvature(a, b));
+                        let bounds = member.curvature_bounds(a, b);
+                        largest = std::array::from_fn(|j| largest[j].max(bounds[j]));
                     }
                     before = after;
                 }
-                largest
+                return largest;
             }
-        }
+        };
+        let mut scale = 1.0;
+        bounds.map(|bound| {
+            scale /= unit;
+            if bound == f64::MAX { bound } else { (bound * scale).min(f64::MAX) }
+        })
     }
 
     /// s ∈ [−½, ½] for an arc length.

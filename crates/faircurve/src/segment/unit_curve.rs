@@ -31,8 +31,9 @@ pub trait UnitCurve: fmt::Debug + Send + Sync {
     /// cusps, sharp bends.
     fn breaks(&self) -> &[f64];
 
-    /// An upper bound of |curvature| between two arc lengths; [`f64::MAX`] where none is known.
-    fn largest_curvature(&self, from: f64, to: f64) -> f64;
+    /// Upper bounds of |κ|, |κ′| and |κ″| between two arc lengths; each is [`f64::MAX`] where none is
+    /// known.
+    fn curvature_bounds(&self, from: f64, to: f64) -> [f64; 3];
 
     /// The piece between two arc lengths as a Bézier, if it is one exactly.
     fn bezier(&self, from: f64, to: f64) -> Option<PathSeg>;

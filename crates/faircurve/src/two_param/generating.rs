@@ -54,6 +54,13 @@ pub trait Cut: fmt::Debug + Send + Sync {
     /// Curvature and its first three derivatives; large but finite where they diverge.
     fn curvature_jet(&self, v: f64) -> [f64; 4];
 
+    /// Upper bounds of |κ|, |κ′| and |κ″| between two places; each is [`f64::MAX`] where none is known.
+    /// Curvature itself is largest at an end, since it never falls.
+    fn curvature_bounds(&self, from: f64, to: f64) -> [f64; 3] {
+        let [a, b] = [from, to].map(|v| self.curvature_jet(v)[0].abs());
+        [a.max(b), f64::MAX, f64::MAX]
+    }
+
     /// Direction at `v`: the integral of curvature from the start.
     fn turning(&self, v: f64) -> f64;
 
@@ -169,9 +176,15 @@ impl<C: Cut> UnitCurve for PlacedCut<C> {
         &self.breaks
     }
 
-    /// Curvature is monotone, so that it is largest at an end.
-    fn largest_curvature(&self, from: f64, to: f64) -> f64 {
-        self.curvature_jet(from)[0].abs().max(self.curvature_jet(to)[0].abs())
+    fn curvature_bounds(&self, from: f64, to: f64) -> [f64; 3] {
+        let (a, b) = (self.place(from), self.place(to));
+        let bounds = self.cut.curvature_bounds(a.min(b), a.max(b));
+        let chord = self.chord.norm();
+        let scales = [chord, chord * chord, chord * chord * chord];
+        std::array::from_fn(|order| match bounds[order] {
+            f64::MAX => f64::MAX,
+            bound => (bound * scales[order]).min(f64::MAX),
+        })
     }
 
     fn bezier(&self, _from: f64, _to: f64) -> Option<PathSeg> {

@@ -465,6 +465,15 @@ impl Cut for GeneratedCut {
         }
     }
 
+    fn curvature_bounds(&self, from: f64, to: f64) -> [f64; 3] {
+        let [a, b] = [from, to].map(|v| self.curvature_jet(v)[0].abs());
+        let derivatives = match self.shape {
+            CutShape::Spiral([_, k1]) => [k1.abs(), 0.0],
+            CutShape::Piece { .. } => [f64::MAX; 2],
+        };
+        [a.max(b), derivatives[0], derivatives[1]]
+    }
+
     fn turning(&self, v: f64) -> f64 {
         if let CutShape::Spiral([k0, k1]) = self.shape {
             return v * (k0 + k1 * (v - 1.0) / 2.0);

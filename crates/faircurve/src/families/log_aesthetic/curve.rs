@@ -394,6 +394,15 @@ impl Cut for LogAestheticCut {
         [if x == 0.0 { 0.0 } else { curvature }, slope, second.copysign(second * x), third]
     }
 
+    /// Powers are largest at an end, on one side of the inflection.
+    fn curvature_bounds(&self, from: f64, to: f64) -> [f64; 3] {
+        let [a, b] = [from, to].map(|v| self.curvature_jet(v).map(f64::abs));
+        let is_on_one_side = self.x(from) * self.x(to) > 0.0;
+        let derivative =
+            |order: usize| if is_on_one_side { a[order].max(b[order]) } else { f64::MAX };
+        [a[0].max(b[0]), derivative(1), derivative(2)]
+    }
+
     fn turning(&self, v: f64) -> f64 {
         let order = self.order();
         if !self.is_far {

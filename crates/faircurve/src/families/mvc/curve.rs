@@ -247,13 +247,18 @@ impl UnitCurve for MvcCurve {
         &[]
     }
 
-    /// By Taylor's theorem from the middle of the interval, with κ″ bounded by what it is there and
-    /// by the force: |κ‴| ≤ |(α, β)|.
-    fn largest_curvature(&self, from: f64, to: f64) -> f64 {
+    /// By Taylor's theorem from the middle of the interval, with κ‴ bounded by the force:
+    /// |κ‴| ≤ |(α, β)|.
+    fn curvature_bounds(&self, from: f64, to: f64) -> [f64; 3] {
         let middle = self.curvature_jet((from + to) / 2.0);
         let (h, c) = ((to - from).abs() / 2.0, self.chord.norm());
         let third = self.force.alpha.hypot(self.force.beta) * c.powi(4);
-        middle[0].abs() + h * (middle[1].abs() + h / 2.0 * (middle[2].abs() + h / 3.0 * third))
+        let second = middle[2].abs() + h * third;
+        [
+            middle[0].abs() + h * (middle[1].abs() + h / 2.0 * (middle[2].abs() + h / 3.0 * third)),
+            middle[1].abs() + h * second,
+            second,
+        ]
     }
 
     fn bezier(&self, _from: f64, _to: f64) -> Option<PathSeg> {

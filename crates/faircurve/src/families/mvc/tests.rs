@@ -111,7 +111,16 @@ fn points_directions_and_curvatures_belong_together() {
                 let slope = (jets[2][order] - jets[0][order]) / (2.0 * h);
                 assert!((slope - jets[1][order + 1]).abs() < 1e-5 * (1.0 + slope.abs()));
             }
-            assert!(curve.largest_curvature(s, s + 0.1) >= jets[1][0].abs());
+            for (from, to) in [(s, s + 0.1), (s - 0.05, s + 0.01)] {
+                let bounds = curve.curvature_bounds(from, to);
+                for order in 0..3 {
+                    let rounding = 1.0 - 1e-12;
+                    assert!(
+                        bounds[order] >= rounding * jets[1][order].abs(),
+                        "{bounds:?} {jets:?}"
+                    );
+                }
+            }
         }
     }
 }
