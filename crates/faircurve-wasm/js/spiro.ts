@@ -6,12 +6,14 @@
  * ```
  *
  * What differs: every input has a finite curve, or a `FaircurveError` that says what is wrong with it; a knot that
- * can't be met is relaxed; there are as few Béziers as the accuracy allows. Arcs (`spiroToArcs`) aren't here: `Curve`
- * of the package itself answers what they did.
+ * can't be met is relaxed; there are as few Béziers as the accuracy allows.
  * @module
  */
 import type { Join, Knot as OwnKnot } from "./document.js";
-import { solve } from "./index.js";
+import { type Curve, solve } from "./index.js";
+import { SpiroArc, type SpiroK } from "./spiro-arc.js";
+
+export { SpiroArc, type SpiroK };
 
 export type Point = { x: number; y: number };
 
@@ -33,6 +35,29 @@ export interface IBezierContext {
   moveTo(x: number, y: number): void;
   lineTo(x: number, y: number): void;
   cubicTo(x1: number, y1: number, x2: number, y2: number, x: number, y: number): void;
+}
+
+/** What a curve is played onto, arc by arc. */
+export interface IArcContext {
+  beginShape(): void;
+  endShape(): void;
+  moveTo(x: number, y: number): void;
+  arcTo(arc: SpiroArc, x: number, y: number, isStraight: boolean): void;
+}
+
+/** Collects arcs. */
+export class SimplyCollectArcContext implements IArcContext {
+  arcs: SpiroArc[] = [];
+
+  beginShape(): void {}
+
+  endShape(): void {}
+
+  moveTo(): void {}
+
+  arcTo(arc: SpiroArc): void {
+    this.arcs.push(arc);
+  }
 }
 
 export type LineArc = { order: 1; start: Point; end: Point };
@@ -98,9 +123,7 @@ export function spiroToBezierOnContext<C extends IBezierContext>(
   bc.beginShape();
   const [first] = spiros;
   if (first !== undefined) {
-    // A type that isn't known goes on as it is, so that the error names it.
-    const knots = spiros.map(({ x, y, type }): OwnKnot => ({ x, y, join: JOINS[type] ?? (type as Join) }));
-    const curve = solve({ contours: [{ closed: isClosed, knots }] }).contours[0]!;
+    const curve = solved(spiros, isClosed);
     const { data } = curve.beziers(delta);
     curve.free();
     bc.moveTo(first.x, first.y);
@@ -108,6 +131,12 @@ export function spiroToBezierOnContext<C extends IBezierContext>(
     playSegments(bc, data, isClosed ? [...spiros, first] : spiros);
   }
   bc.endShape();
+}
+
+function solved(spiros: Knot<never>[], closed: boolean): Curve {
+  // A type that isn't known goes on as it is, so that the error names it.
+  const knots = spiros.map(({ x, y, type }): OwnKnot => ({ x, y, join: JOINS[type] ?? (type as Join) }));
+  return solve({ contours: [{ closed, knots }] }).contours[0]!;
 }
 
 /** Every segment's Béziers, and the callback of the knot at its end. Knots are ends of Béziers to the bit. */
@@ -136,4 +165,32 @@ export function spiroToBezier(spiros: Knot<IBezierContext>[], isClosed: boolean)
   const context = new DefaultBezierContext();
   spiroToBezierOnContext(spiros, isClosed, context);
   return context.strands;
+}
+
+/** Plays the curve through the knots onto a context, as one arc from each knot to the next. */
+export function spiroToArcsOnContext<C extends IArcContext>(spiros: Knot<C>[], isClosed: boolean, context: C): void {
+  context.beginShape();
+  const [first] = spiros;
+  if (first !== undefined) {
+    const curve = solved(spiros, isClosed);
+    const { segments } = curve;
+    curve.free();
+    context.moveTo(first.x, first.y);
+    first.af?.call(context, first.x, first.y);
+    const knots = isClosed ? [...spiros, first] : spiros;
+    segments.forEach(({ kappa }, i) => {
+      const [{ x: x0, y: y0 }, { x, y, af }] = [knots[i]!, knots[i + 1]!];
+      const arc = new SpiroArc(kappa ?? [0, 0, 0, 0], x0, y0, x, y);
+      context.arcTo(arc, x, y, arc.isStraight);
+      af?.call(context, x0, y0, x, y);
+    });
+  }
+  context.endShape();
+}
+
+/** The curve through the knots as arcs, one from each knot to the next. */
+export function spiroToArcs(spiros: Knot<IArcContext>[], isClosed: boolean): SpiroArc[] {
+  const context = new SimplyCollectArcContext();
+  spiroToArcsOnContext(spiros, isClosed, context);
+  return context.arcs;
 }

@@ -70,3 +70,61 @@ test("where theirs writes NaN, ours says what is wrong", () => {
   assert.ok(play(theirs, bad, true).flat().some(Number.isNaN));
   assert.throws(() => play(own, bad, true), { name: "FaircurveError", message: "y of knot 1 is not a finite number" });
 });
+
+class ArcLog {
+  calls = [];
+  beginShape = (...n) => this.calls.push(["beginShape", ...n]);
+  endShape = (...n) => this.calls.push(["endShape", ...n]);
+  moveTo = (...n) => this.calls.push(["moveTo", ...n]);
+  arcTo = (arc, ...n) => this.calls.push(["arcTo", arc.x0, arc.y0, arc.x1, arc.y1, ...n]);
+}
+
+const near = (a, b, within, what) => {
+  for (const key of Object.keys(b)) assert.ok(Math.abs(a[key] - b[key]) <= within, `${what}.${key}: ${a[key]} ${b[key]}`);
+};
+
+test("the same calls with arcs", () => {
+  for (const [knots, closed] of drawings) {
+    const [ours, other] = [own, theirs].map((spiro) => {
+      const log = new ArcLog();
+      const af = (...n) => log.calls.push(["af", ...n]);
+      spiro.spiroToArcsOnContext(knots.map((knot) => ({ ...knot, af })), closed, log);
+      return log.calls;
+    });
+    assert.deepEqual(ours, other);
+  }
+});
+
+test("the same arcs", () => {
+  const of = ({ x0, y0, x1, y1, arcLength, bend, deriveX0, deriveY0, deriveX1, deriveY1 }) => ({
+    ...{ x0, y0, x1, y1, arcLength, bend, deriveX0, deriveY0, deriveX1, deriveY1 },
+  });
+  for (const [knots, closed] of drawings) {
+    const [ours, other] = [own, theirs].map((spiro) => spiro.spiroToArcs(knots, closed));
+    assert.equal(ours.length, other.length);
+    // Theirs are solved to 1e-4 or so.
+    ours.forEach((arc, i) => near(of(arc), of(other[i]), 1e-2, `arc ${i}`));
+  }
+});
+
+test("arcs answer as theirs do", () => {
+  for (const k of [[1.5, 2, -1, 3], [0, 0, 0, 0], [-4, 1, 30, -100], [0.2, 12, 0, 0]]) {
+    const [ours, other] = [own, theirs].map(({ SpiroArc }) => new SpiroArc(k, 1, 2, 4, 6));
+    for (const at of [0, 0.2, 0.5, 0.77, 1]) {
+      near(ours.eval(at), other.eval(at), 1e-4, `eval ${k} ${at}`);
+      near(ours.derivative(at), other.derivative(at), 1e-3, `derivative ${k} ${at}`);
+    }
+    ours.subdivide(0.3).forEach((part, i) => {
+      const mine = part.eval(0.5);
+      near(mine, ours.eval(i === 0 ? 0.15 : 0.65), 1e-12, `part ${i} of ${k}`);
+      near({ bend: part.bend }, { bend: other.subdivide(0.3)[i].bend }, 1e-12, `part ${i} of ${k}`);
+    });
+    ours.toCubicBezier().forEach((point, i) => near(point, other.toCubicBezier()[i], 1e-3, `cubic ${i} of ${k}`));
+  }
+});
+
+test("an arc that there is not says so", () => {
+  assert.throws(() => new own.SpiroArc([2 * Math.PI * 1e308, 0, 0, NaN], 0, 0, 1, 1), { name: "FaircurveError" });
+  assert.throws(() => new own.SpiroArc([0, 0, 0, 0], 0, 0, Infinity, 1), { name: "FaircurveError" });
+  assert.equal(new own.SpiroArc([1, 0, 0, 0], 3, 3, 3, 3).arcLength, 0);
+});
