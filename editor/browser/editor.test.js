@@ -336,6 +336,47 @@ test("joins by double click, key and button; the tangent is given, turned and fr
   await context.close();
 });
 
+test("curvature, tension and curl are typed in and taken away, and a contour's own parameters are set", async () => {
+  const { page, problems, context } = await open(browser, site.url);
+  await page.getByRole("button", { name: "A road" }).click();
+  const knot = async () => (await state(page)).contours[0].knots[(await state(page)).selected[0].knot];
+  const type = async (/** @type {string} */ label, /** @type {string} */ value) => {
+    await page.getByLabel(label).fill(value);
+    await page.getByLabel(label).press("Enter");
+  };
+  await page.locator("#canvas").focus();
+  await page.keyboard.press("n");
+  await page.getByLabel("Spline", { exact: true }).selectOption("euler");
+  assert.match(await page.getByLabel("curvature after, in 1/units").getAttribute("placeholder") ?? "", /free/);
+  await type("curvature after, in 1/units", "0.0025");
+  assert.equal((await knot()).curvature_out, 0.0025);
+  await shot(page, "curvature");
+  await page.getByLabel("Spline", { exact: true }).selectOption("hobby");
+  await type("curl at this end, at least 0", "2");
+  await type("tension after, at least 0.75", "1.5");
+  assert.equal((await knot()).curl, 2);
+  assert.equal((await knot()).tension_out, 1.5);
+  // Hobby's spline has no curvatures to give: one that is given stays in sight, and is said to be of no use.
+  await page.getByText("hobby takes no curvature here").waitFor();
+  await type("curvature after, in 1/units", "");
+  assert.equal((await knot()).curvature_out, undefined);
+  assert.equal(await page.getByText("hobby takes no curvature here").count(), 0);
+  await page.keyboard.press("Control+z");
+  assert.equal((await knot()).curvature_out, 0.0025);
+  await page.getByLabel("Spline of this contour").selectOption("mec");
+  const penalty = page.locator(".part", { hasText: "Spline" }).getByLabel(/penalty|arc length/i).last();
+  await penalty.evaluate((slider) => {
+    /** @type {HTMLInputElement} */ (slider).value = "0.5";
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+    slider.dispatchEvent(new Event("change", { bubbles: true }));
+  });
+  assert.equal((await state(page)).contours[0].params?.penalty, 0.5);
+  await page.keyboard.press("Control+z");
+  assert.equal((await state(page)).contours[0].params?.penalty, undefined);
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
 test("a marquee selects, the frame scales and turns, contours are duplicated and mirrored", async () => {
   const { page, problems, context } = await open(browser, site.url);
   await page.getByRole("button", { name: "A logo" }).click();

@@ -22,7 +22,7 @@ export const catalogue = faircurve.catalogue;
  * Splines whose segments are neither spirals nor Béziers: converting them takes longer than a frame, so they
  * are drawn through close samples, and their Béziers are found only where they are asked for.
  */
-const SLOWLY_CONVERTED = new Set(["log-aesthetic", "generated", "circle", "kurgla1", "mec", "simec", "mvc"]);
+const SLOWLY_CONVERTED = new Set(["generated", "circle"]);
 
 /** @param {string} name */
 export const splineInfo = (name) => catalogue.find((info) => info.name === name);

@@ -47,13 +47,20 @@ export function buildInspector(app) {
  */
 const part = (title, ...children) => h("section", { class: "part", "aria-label": title }, h("h2", {}, title), ...children);
 
-/** A field with a label; its value is taken when it changes. @param {string} label @param {Record<string, any>} attributes @param {(value: number) => void} take */
-function field(label, attributes, take) {
+/**
+ * A field with a label; its value is taken when it changes, and emptied it is cleared, where that means something.
+ * @param {string} label
+ * @param {Record<string, any>} attributes
+ * @param {(value: number) => void} take
+ * @param {{clear?: () => void, step?: number}} [options] `step`: what an arrow key adds
+ */
+function field(label, attributes, take, { clear, step = 1 } = {}) {
   const input = h("input", {
     type: "text", inputmode: "decimal", "aria-label": attributes["aria-label"] ?? label, ...attributes,
     onchange() {
       const value = evaluated(input.value);
       if (value !== null) take(value);
+      else if (clear && input.value.trim() === "") clear();
       else input.dispatchEvent(new Event("blur"));
     },
     onkeydown(/** @type {KeyboardEvent} */ event) {
@@ -61,7 +68,7 @@ function field(label, attributes, take) {
       const value = evaluated(input.value);
       if (by && value !== null) {
         event.preventDefault();
-        input.value = String(rounded(value + by * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1)));
+        input.value = String(rounded(value + by * step * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1), 6));
         take(Number(input.value));
       }
       if (event.key === "Enter") input.select();
@@ -171,6 +178,13 @@ function knotPart(app) {
     made.element.classList.add("wide");
     return { side, ...made };
   });
+  const numbers = NUMBERS.map((info) => {
+    const made = field(info.label, { "aria-label": info.words }, (value) => set({ [info.name]: value }), {
+      clear: () => set({ [info.name]: undefined }), step: info.step,
+    });
+    made.element.classList.add("wide");
+    return { info, ...made };
+  });
   const free = h("button", { type: "button", class: "small", onclick: () => actionOf("free-tangent").run(app) }, "Free the tangent");
   const give = h("button", { type: "button", class: "small", onclick: () => actionOf("tangent").run(app) }, "Give the tangent");
   const rows = h("tbody");
@@ -178,7 +192,8 @@ function knotPart(app) {
     h("thead", {}, h("tr", {}, h("th", { scope: "col" }, ""), h("th", { scope: "col" }, "before"), h("th", { scope: "col" }, "after"), h("th", { scope: "col" }, "jump"))), rows);
   const why = h("p", { class: "why", role: "status" });
   const element = part("Knot", h("div", { class: "pair" }, x.element, y.element), ...joins.elements,
-    ...angles.map(({ element }) => element), h("div", { class: "buttons" }, give, free), why, table);
+    ...angles.map(({ element }) => element), ...numbers.map(({ element }) => element),
+    h("div", { class: "buttons" }, give, free), why, table);
   return {
     element,
     /** @param {boolean} all */
@@ -204,12 +219,25 @@ function knotPart(app) {
         input.placeholder = has === null ? "–" : `${rounded((has * 180) / Math.PI, 2)}° (free)`;
         input.disabled = has === null;
       }
+      for (const { info, element, input } of numbers) {
+        const given = knot[info.name];
+        // What the spline has no use for is shown where it is given, so that it can be taken away.
+        element.hidden = given === undefined && !info.isFor(curve.spline, isEnd);
+        const has = info.has(solved);
+        show(input, given === undefined ? "" : String(rounded(given, 9)));
+        input.placeholder = has === null ? "–" : typeof has === "number" ? `${number(has, 4)} (free)` : has;
+        input.disabled = has === null;
+      }
       const isGiven = knot.tangent_in !== undefined || knot.tangent_out !== undefined || knot.curvature_in !== undefined || knot.curvature_out !== undefined;
       free.hidden = !isGiven;
       give.hidden = isGiven;
-      const relaxed = curve.relaxed.filter((r) => r.knot === place.knot);
-      why.textContent = relaxed.map((r) => `asked ${r.asked}, got ${r.got}: ${r.reason}`).join(". ");
-      why.hidden = relaxed.length === 0;
+      const isHere = (/** @type {{knot?: number}} */ { knot }) => knot === place.knot;
+      const said = curve.relaxed.filter(isHere).map(({ asked, got, reason }) => `asked ${asked}, got ${got}: ${reason}`);
+      // Joins that are adapted show as what they are; what is given and has no use would be a riddle.
+      const unused = curve.adapted.filter((a) => isHere(a) && !JOINS.some(({ join }) => join === a.asked));
+      said.push(...unused.map(({ asked, got }) => `${curve.spline} takes no ${asked} here: ${got}`));
+      why.textContent = said.join(". ");
+      why.hidden = said.length === 0;
       const jump = curve.jumps[place.knot];
       table.hidden = !jump;
       if (!jump) return;
@@ -226,6 +254,22 @@ function knotPart(app) {
     },
   };
 }
+
+/**
+ * What else a knot may be given: the fields of the document, which splines have them, and what they are where they are free.
+ * @type {{name: "curvature_in" | "curvature_out" | "tension_in" | "tension_out" | "curl", label: string, words: string, step: number,
+ *   isFor: (spline: string, isEnd: boolean) => boolean, has: (solved: import("faircurve").SolvedKnot) => number | string | null}[]}
+ */
+const NUMBERS = [
+  { name: "curvature_in", label: "κ before", words: "curvature before, in 1/units", step: 0.001, isFor: (spline) => CURVED.has(spline), has: (solved) => solved.curvature_in },
+  { name: "curvature_out", label: "κ after", words: "curvature after, in 1/units", step: 0.001, isFor: (spline) => CURVED.has(spline), has: (solved) => solved.curvature_out },
+  { name: "tension_in", label: "tension before", words: "tension before, at least 0.75", step: 0.1, isFor: (spline) => spline === "hobby", has: ({ direction_in }) => (direction_in === null ? null : "the spline's") },
+  { name: "tension_out", label: "tension after", words: "tension after, at least 0.75", step: 0.1, isFor: (spline) => spline === "hobby", has: ({ direction_out }) => (direction_out === null ? null : "the spline's") },
+  { name: "curl", label: "curl", words: "curl at this end, at least 0", step: 0.1, isFor: (spline, isEnd) => spline === "hobby" && isEnd, has: () => "the spline's" },
+];
+
+/** Splines at whose knots a curvature may be given. */
+const CURVED = new Set(["spiro", "mvc", "euler", "log-aesthetic", "generated", "mec", "simec", "kurgla1", "bespoke"]);
 
 /** A jump without unit: what rounding leaves counts as none. @param {number} jump */
 const jumpWords = (jump) => (Math.abs(jump) < 1e-7 ? "none" : number(jump, 3));
@@ -286,7 +330,10 @@ function contourPart(app) {
   const closed = h("input", { type: "checkbox", onchange: () => actionOf("close").run(app) });
   const rows = h("tbody");
   const heading = h("caption", {}, "");
-  const own = h("div", { class: "params" }, h("label", { class: "field wide" }, h("span", {}, "Spline"), splines), h("label", { class: "tick" }, closed, "closed"));
+  const params = h("div", { class: "params" });
+  const own = h("div", { class: "params" }, h("label", { class: "field wide" }, h("span", {}, "Spline"), splines), params, h("label", { class: "tick" }, closed, "closed"));
+  let shownSpline = "";
+  let controls = paramControls([], {}, () => {});
   const table = h("table", { class: "numbers" }, heading, rows);
   const element = part("Contour", own, table);
   const title = /** @type {HTMLElement} */ (element.querySelector("h2"));
@@ -308,6 +355,18 @@ function contourPart(app) {
         const contour = editor.contours[only];
         splines.value = contour.spline ?? "";
         closed.checked = contour.closed;
+        const spline = contour.spline ?? "";
+        if (shownSpline !== spline) {
+          shownSpline = spline;
+          controls = paramControls(splineInfo(spline)?.params ?? [], contour.params ?? {}, (values, moving) => {
+            /** @type {["setContourSpline", object]} */
+            const command = ["setContourSpline", { spline, params: values }];
+            if (moving) editor.preview([command]);
+            else editor.run(...command);
+          });
+          params.replaceChildren(...controls.elements);
+        }
+        controls.show(contour.params ?? {});
       }
       const measured = only === undefined ? curves : [curves[only]];
       const sum = (/** @type {(m: typeof curves[0]["measures"]) => number} */ of) => measured.reduce((total, curve) => total + of(curve.measures), 0);
