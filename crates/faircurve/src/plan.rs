@@ -288,7 +288,7 @@ impl Plan {
         frame.check_curvatures(contour)?;
         let mut nodes = merge_coincident(contour, &joins, &frame);
         if !spline.adapt(Join::G1).is_smooth() {
-            ignore_tangents(&mut nodes, &mut adapted);
+            ignore_given(&mut nodes, &mut adapted);
         }
         settle_given(&mut nodes, contour, &mut adapted)?;
         let mut plan = Plan {
@@ -734,12 +734,16 @@ fn merge_coincident(contour: &Contour, joins: &[ResolvedJoin], frame: &NormalFra
     nodes
 }
 
-/// Drops the tangents given, for splines that have corners only.
-fn ignore_tangents(nodes: &mut [Node], adapted: &mut Vec<Adaptation>) {
+/// Drops the tangents and curvatures given, for splines that have corners only.
+fn ignore_given(nodes: &mut [Node], adapted: &mut Vec<Adaptation>) {
     for node in nodes {
-        if node.tangent_in.take().or(node.tangent_out.take()).is_some() {
-            let place = Place::Knot(node.first);
-            adapted.push(Adaptation { place, asked: "tangent", got: "ignored" });
+        let place = Place::Knot(node.first);
+        let tangents = [node.tangent_in.take(), node.tangent_out.take()];
+        let curvatures = [node.curvature_in.take(), node.curvature_out.take()];
+        for (asked, given) in [("tangent", tangents), ("curvature", curvatures)] {
+            if given.iter().any(Option::is_some) {
+                adapted.push(Adaptation { place, asked, got: "ignored" });
+            }
         }
     }
 }

@@ -1,12 +1,29 @@
 //! Contours that once broke a promise, found by the targets in `fuzz/`; each test says which.
 
 use faircurve::catalog::{self, Params};
-use faircurve::convert::to_bezpath;
-use faircurve::kurbo::{PathEl, Point};
-use faircurve::{Contour, InputError, Join, Knot, Place, Segment, Solution, solve};
+use faircurve::convert::{Cuts, Options, convert, to_bezpath};
+use faircurve::frame::wrap_angle;
+use faircurve::kurbo::{PathEl, Point, Vec2};
+use faircurve::{Contour, Curve, InputError, Join, Knot, Place, Segment, Solution, solve};
 
 fn solved(spline: &str, contour: &Contour) -> Solution {
     solve(contour, &*catalog::spline(spline).unwrap()).unwrap()
+}
+
+fn built(spline: &str, params: &[(&str, &str)], contour: &Contour) -> Solution {
+    let params = params.iter().fold(Params::new(), |all, (name, value)| all.with(name, *value));
+    solve(contour, &*catalog::build(spline, &params).unwrap()).unwrap()
+}
+
+/// How far the curve comes out of its box, in lengths of the curve.
+fn beyond_box(curve: &Curve) -> f64 {
+    const PLACES: u32 = 1000;
+    let bounds = curve.bounding_box().unwrap();
+    let out = |i: u32| {
+        let at = curve.at(curve.length() * f64::from(i) / f64::from(PLACES)).unwrap();
+        (bounds.union_pt(at.point).size() - bounds.size()).max_side()
+    };
+    (0..=PLACES).map(out).fold(0.0, f64::max) / curve.length()
 }
 
 /// How far apart the two halves of a segment are in its middle, where they meet: points are
@@ -148,6 +165,131 @@ fn curvatures_beyond_all_numbers_are_refused() {
         for spline in ["spiro", "euler"] {
             let error = solve(&contour, &*catalog::spline(spline).unwrap()).unwrap_err();
             assert_eq!(error, InputError::CurvatureTooLarge { knot: 0, what: "curvature_out" });
+        }
+    }
+}
+
+/// The top of a half circle lies in its very middle, one of the places at which signs are compared.
+#[test]
+fn the_box_holds_what_is_symmetric() {
+    let half_turns = Contour::closed([(0.0, 2.0), (2.0, 2.0)].map(|p| Knot::new(p).join(Join::G2)));
+    for spline in ["kurgla1", "mvc", "log-aesthetic", "generated"] {
+        let solution =
+            built(spline, if spline == "mvc" { &[] } else { &[("end", "arc")] }, &half_turns);
+        let curve = solution.curve;
+        assert!(beyond_box(&curve) <= 1e-9, "{spline}: {:?}", curve.bounding_box());
+        for segment in curve.segments() {
+            let middle = segment.length() / 2.0;
+            let has_top = segment.axis_extrema().iter().any(|s| (s - middle).abs() < 1e-9 * middle);
+            assert!(has_top, "{spline}: {:?}", segment.axis_extrema());
+        }
+    }
+}
+
+/// The top lies where the arcs of a biarc meet, on neither of them by their rounded directions.
+#[test]
+fn the_top_of_a_biarc_is_found_once() {
+    let contour = Contour::closed([
+        Knot::new((-58.0, -0.4)).join(Join::Corner),
+        Knot::new((2.2e-16, 1e45)),
+        Knot::new((1e45, 1e45)),
+        Knot::new((-56.0, -58.0)),
+        Knot::new((46.0, -58.0)),
+    ]);
+    let curve = built("circle", &[("shape", "biarc")], &contour).curve;
+    assert!(beyond_box(&curve) <= 1e-9, "{:?}", curve.bounding_box());
+    for segment in curve.segments() {
+        let extrema = segment.axis_extrema();
+        let apart = |pair: &[f64]| pair[1] - pair[0] > 1e-9 * segment.length();
+        assert!(extrema.windows(2).all(apart), "{extrema:?}");
+    }
+}
+
+/// A shape that promises tangents only has a curvature of its own, and straight lines have none.
+#[test]
+fn a_curvature_that_the_shape_does_not_have_is_listed() {
+    let contour = Contour::open([
+        Knot::new((-24.0, -39.0)).curvature_out(0.006),
+        Knot::new((0.0, 0.0)),
+        Knot::new((30.0, -5.0)),
+    ]);
+    let is_listed = |solution: &Solution| {
+        let adapted = &solution.report.adapted;
+        adapted.iter().any(|a| a.place == Place::Knot(0) && a.asked == "curvature")
+    };
+    for spline in ["euler", "bespoke", "generated", "kurgla1", "log-aesthetic", "mec", "simec"] {
+        let solution = built(spline, &[("shape", "hobby")], &contour);
+        assert!(is_listed(&solution), "{spline}: {:?}", solution.report);
+    }
+    assert!(is_listed(&solved("polygon", &contour)));
+}
+
+/// The joint of two parabolas lies on a knot but for rounding: the direction of what is between is no direction.
+#[test]
+fn a_kappa_curve_does_not_turn_back_at_a_knot_that_is_called_smooth() {
+    let contour =
+        Contour::closed([Knot::new((5323.0, 1.0)), Knot::new((23.0, 90.0)).tangent((-1.0, 3.0))]);
+    let solution = solved("kappa", &contour);
+    let [arriving, leaving] =
+        [solution.knots[0].direction_in, solution.knots[0].direction_out].map(Option::unwrap);
+    let turns = wrap_angle(leaving - arriving).abs();
+    assert!(
+        turns < 1e-9 || solution.knots[0].join == Join::Corner,
+        "{turns} {:?}",
+        solution.report
+    );
+}
+
+/// Knots that lie 1e15 times nearer to each other than to the rest: legs found for the whole don't know
+/// the way from one to the other.
+#[test]
+fn a_kappa_curve_is_whole_and_no_shorter_than_its_chords() {
+    let far = Contour::open([
+        (72.0, 72.0),
+        (72.0, -48.0),
+        (72.0, -1.351_079_888_211_149_3e17),
+        (2565.0, 2570.0),
+        (2570.0, 2570.0),
+        (1.0, 0.0),
+        (-39.0, 0.0),
+    ]);
+    let near = Contour::open([
+        (0.188_235_294_073_820_11, 0.188_235_294_073_820_11),
+        (0.188_235_295_936_465_26, 0.188_235_294_073_820_11),
+        (1550.5, 34.0),
+        (546.125, 0.188_235_294_073_820_11),
+        (1550.5, 34.0),
+        (546.125, 110.0),
+        (-2467.0, 338.0),
+    ]);
+    for contour in [far, near] {
+        for segment in solved("kappa", &contour).curve.segments() {
+            assert!(tear(segment) <= 1e-9 * segment.length(), "{segment:?}");
+            assert!(segment.length() >= segment.chord_length() * (1.0 - 1e-12), "{segment:?}");
+        }
+    }
+}
+
+/// Beside segments of 1e19 units, places on one of 100 aren't told apart by the length so far: the search went on
+/// from where it was for ever.
+#[test]
+fn beziers_across_knots_get_on_where_segments_are_tiny() {
+    let contour = Contour::closed([
+        Knot::new((0.0, 55.0)),
+        Knot::new((45.25, 0.5)),
+        Knot::new((0.0, 55.0)).tangent_in(Vec2::new(-127.0, -127.0)),
+        Knot::new((3152.75, 1.4e19)),
+        Knot::new((55.0, 0.5)),
+        Knot::new((-0.8, 0.04)),
+        Knot::new((3469.5, 3469.5)),
+    ]);
+    let curve = solved("spiro", &contour).curve;
+    for cuts in [Cuts::Greedy, Cuts::Halving, Cuts::HalvingBend, Cuts::EqualErrors, Cuts::Balanced]
+    {
+        for free_joints in [false, true] {
+            let options = Options { span_knots: true, cuts, free_joints, ..Options::new(0.0) };
+            let result = convert(&curve, &options);
+            assert!(result.path.is_finite() && result.cubics < 10_000, "{}", result.cubics);
         }
     }
 }

@@ -224,18 +224,22 @@ pub(super) fn greedy(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
 
 /// What starts at `here` in a range is never cut shorter than this, so that the work is bounded: by 4097
 /// pieces a segment, and as many for each break, about which a curve may have a cusp. No more than the rest
-/// of the segment, as the next one may be much shorter.
+/// of the segment, as the next one may be much shorter; and never so short that arc lengths of the whole
+/// stretch don't tell one end from the other.
 pub(super) fn shortest(fitter: &Fitter<'_>, here: f64, range: [f64; 2]) -> f64 {
     const MOST_PIECES: f64 = 4096.0;
     /// A rest below this part of the segment is rounding.
     const LEAST_REST: f64 = 1e-9;
+    /// As a part of the stretch: some hundred units in the last place.
+    const TELLS_ENDS: f64 = 1e-13;
     let (segment, local) = fitter.stretch.locate(here);
     let length = segment.length().min(range[1] - range[0]);
     let mut shortest = length / MOST_PIECES;
     if segment.breaks().into_iter().any(|s| s > local && s < local + shortest) {
         shortest /= MOST_PIECES;
     }
-    shortest.min((segment.length() - local).max(LEAST_REST * length))
+    let rest = (segment.length() - local).max(LEAST_REST * length);
+    shortest.min(rest).max(TELLS_ENDS * fitter.stretch.length())
 }
 
 fn first_guess(fitter: &Fitter<'_>, from: f64, to: f64) -> f64 {

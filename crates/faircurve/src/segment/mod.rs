@@ -156,20 +156,23 @@ impl Segment {
         Segment { start, end, shape: Shape::Unit(piece), length, heading: direction(chord) }
     }
 
-    /// The same, with the way from `start` to `end` given: where it is short, better known than the
-    /// points know it.
+    /// The same, with the direction from `start` to `end` given: where it is short, better known than
+    /// the points know it. What differs by more than the rounding of the points isn't believed.
     pub(crate) fn unit_curve_along(
         start: Point,
         end: Point,
         curve: Arc<dyn UnitCurve>,
-        chord: Vec2,
+        way: Vec2,
     ) -> Self {
+        const ROUNDING: f64 = 1e-10;
         let placed = Segment::unit_curve(start, end, curve);
-        if placed.is_line() {
+        let chord = end - start;
+        let astray = turning(chord, way).abs() * chord.hypot();
+        let size = start.to_vec2().hypot().max(end.to_vec2().hypot());
+        if placed.is_line() || !(astray <= ROUNDING * (chord.hypot() + size)) {
             return placed;
         }
-        let length = placed.length * (chord.hypot() / (end - start).hypot());
-        Segment { length, heading: direction(chord), ..placed }
+        Segment { heading: direction(way), ..placed }
     }
 
     /// A Bézier, exactly; a straight line if it is one or ends where it starts.
@@ -591,7 +594,22 @@ impl Segment {
             Shape::Elastica(_) | Shape::Unit(_) => {
                 self.sign_changes(|s| (2.0 * self.direction(s)).sin())
             }
-            Shape::Chain(members) => places_in(members, Segment::axis_extrema),
+            Shape::Chain(members) => {
+                let mut places = places_in(members, Segment::axis_extrema);
+                // At a joint, rounding may put it beyond either side, or have it twice.
+                let mut before = 0.0;
+                for member in &members[..members.len() - 1] {
+                    before += member.length;
+                    let direction = member.direction(member.length);
+                    let rounding = 8.0 * f64::EPSILON * (1.0 + direction.abs());
+                    if (2.0 * direction).sin().abs() <= rounding {
+                        places.push(before);
+                    }
+                }
+                places.sort_by(f64::total_cmp);
+                places.dedup_by(|after, before| *after - *before <= 1e-12 * self.length);
+                places
+            }
         }
     }
 
@@ -650,6 +668,9 @@ impl Segment {
     /// The smallest box that holds the segment, to rounding.
     pub fn bounding_box(&self) -> Rect {
         let mut bounds = Rect::from_points(self.start, self.end);
+        if let Shape::Chain(members) = &self.shape {
+            return members.iter().fold(bounds, |bounds, m| bounds.union(m.bounding_box()));
+        }
         if let Some(beziers) = self.beziers() {
             return beziers.iter().fold(bounds, |bounds, b| bounds.union(b.bounding_box()));
         }
@@ -831,27 +852,33 @@ impl Segment {
     /// at the breaks between them.
     fn sign_changes(&self, f: impl Fn(f64) -> f64) -> Vec<f64> {
         const PLACES: usize = 16;
-        let stops = self.stops();
-        let mut places = Vec::new();
-        let mut before = None;
-        for ends in stops.windows(2) {
-            // Just inside, since at a joint or a cusp the function is that of the other side.
-            let inside = |i: usize| {
+        let mut changes = Vec::new();
+        // The last place at which the function has a sign, and that sign.
+        let mut signed: Option<(f64, f64)> = None;
+        for ends in self.stops().windows(2) {
+            for i in 0..=PLACES {
+                // Just inside, since at a joint or a cusp the function is that of the other side.
                 let along = (i as f64 / PLACES as f64).clamp(1e-9, 1.0 - 1e-9);
-                ends[0] + (ends[1] - ends[0]) * along
-            };
-            if before.is_some_and(|before| before * f(inside(0)) < 0.0) {
-                places.push(ends[0]);
-            }
-            for i in 0..PLACES {
-                let (from, to) = (inside(i), inside(i + 1));
-                if f(from) * f(to) < 0.0 {
-                    places.extend(monotone_root(&f, from, to));
+                let here = ends[0] + (ends[1] - ends[0]) * along;
+                let value = f(here);
+                if value == 0.0 || value.is_nan() {
+                    continue;
                 }
+                if let Some((before, sign)) = signed
+                    && sign != value.signum()
+                {
+                    let is_across_break = before < ends[0];
+                    let change = if is_across_break {
+                        Some(ends[0])
+                    } else {
+                        monotone_root(&f, before, here)
+                    };
+                    changes.extend(change);
+                }
+                signed = Some((here, value.signum()));
             }
-            before = Some(f(inside(PLACES)));
         }
-        places
+        changes
     }
 }
 

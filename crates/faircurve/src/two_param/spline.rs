@@ -1,13 +1,13 @@
 //! The spline of a rule for tangents and a shape for segments.
 
 use super::shape::{SegmentShape, StandIn};
-use super::tangents::{TangentRule, Tangents};
+use super::tangents::{TangentRule, Tangents, curvature_of_tangents_only};
 use crate::catalog::SplineInfo;
 use crate::frame::{ChordAngles, wrap_angle};
 use crate::outline::Join;
 use crate::plan::Run;
 use crate::segment::Segment;
-use crate::spline::{Effort, Place, Relaxation, RunSolution, Spline};
+use crate::spline::{Adaptation, Effort, Place, Relaxation, RunSolution, Spline};
 use crate::tolerance::SOLVED;
 
 /// A two-parameter spline: tangents by a rule, segments of a shape.
@@ -62,7 +62,7 @@ impl<R: TangentRule, S: SegmentShape> TwoParamSpline<R, S> {
         segments: Vec<Segment>,
     ) -> RunSolution {
         let n = run.knots.len();
-        let Tangents { adapted, iterations, stage, mismatch, .. } = tangents;
+        let Tangents { mut adapted, iterations, stage, mismatch, .. } = tangents;
         let mut relaxed = Vec::new();
         let mut residual = 0.0f64;
         for (i, mismatch) in mismatch.into_iter().enumerate() {
@@ -88,6 +88,17 @@ impl<R: TangentRule, S: SegmentShape> TwoParamSpline<R, S> {
                 residual = residual.max(turns).max(off);
             } else {
                 relaxed.push(self.unmet(run, i, turns <= SOLVED));
+            }
+        }
+        if !self.shape.keeps_curvature() {
+            let said = |adapted: &[Adaptation], knot| {
+                adapted.iter().any(|a| a.place == Place::Knot(knot) && a.asked == "curvature")
+            };
+            for (i, _) in run.knots.iter().enumerate().filter(|(_, knot)| knot.curvature.is_some())
+            {
+                if !said(&adapted, i) {
+                    adapted.push(curvature_of_tangents_only(i));
+                }
             }
         }
         RunSolution { segments, relaxed, adapted, iterations, residual, stage }

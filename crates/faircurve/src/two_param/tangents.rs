@@ -96,3 +96,8 @@ pub(crate) fn context(run: &Run, segment: usize) -> SegmentContext {
 pub(crate) fn ignored_curvature(knot: usize) -> Adaptation {
     Adaptation { place: Place::Knot(knot), asked: "curvature", got: "ignored" }
 }
+
+/// A given curvature that the tangents were found with, and that the shape drawn hasn't.
+pub(crate) fn curvature_of_tangents_only(knot: usize) -> Adaptation {
+    Adaptation { place: Place::Knot(knot), asked: "curvature", got: "tangents only" }
+}

@@ -361,12 +361,15 @@ impl Parabolas {
     /// Between two knots: what follows the vertex of the first parabola, then what precedes that of
     /// the second.
     pub(super) fn segments(&self, run: &Run) -> Vec<Segment> {
+        /// A part of the chord this short is nothing but rounding, and has its direction.
+        const ROUNDING: f64 = 1e-12;
         let n = run.knots.len();
         (0..run.segment_count())
             .map(|i| {
                 let next = (i + 1) % n;
                 let (start, end) = (run.knots[i].point, run.knots[next].point);
                 let joint = (self.middle[i] + self.leg(i) * self.lambda[i]).to_point();
+                let is_at = |knot: Point| (joint - knot).hypot() <= ROUNDING * run.chord(i).hypot();
                 let half = |knot: usize, leg: usize| {
                     let t = self.vertex[knot];
                     let part = match (is_end(run, knot), leg) {
@@ -381,8 +384,8 @@ impl Parabolas {
                 match (Self::is_free(run, i), Self::is_free(run, next)) {
                     (true, _) => members.push(parabola(start, end, half(next, 0))),
                     (_, true) => members.push(parabola(start, end, half(i, 1))),
-                    _ if joint == start => members.push(parabola(start, end, half(next, 0))),
-                    _ if joint == end => members.push(parabola(start, end, half(i, 1))),
+                    _ if is_at(start) => members.push(parabola(start, end, half(next, 0))),
+                    _ if is_at(end) => members.push(parabola(start, end, half(i, 1))),
                     _ => {
                         members.push(parabola(start, joint, half(i, 1)));
                         members.push(parabola(joint, end, half(next, 0)));
