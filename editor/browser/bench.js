@@ -16,6 +16,32 @@ const tell = (name, times) => console.log(`${name.padEnd(58)} median ${quantile(
 const site = await serve();
 const browser = await launch();
 
+/**
+ * What Chromium spends between two marks of the page, from its trace: the tasks of the page's main thread, and those of all its
+ * threads and of the graphics process together, as if nothing ran beside anything else.
+ * @param {any[]} events
+ * @returns {{main: number[], all: number[]}} milliseconds, one a frame
+ */
+function wholeFrames(events) {
+  const marks = events.filter(({ name, cat }) => name === "frame" && cat.includes("user_timing"));
+  const [{ pid, tid }] = marks;
+  const ends = marks.map(({ ts }) => ts).sort((a, b) => a - b);
+  const main = ends.slice(1).map(() => 0);
+  const all = [...main];
+  const graphics = new Set(events.filter((e) => e.name === "thread_name" && e.args.name === "CrGpuMain").map((e) => e.pid));
+  const tasks = events.filter(({ name, ph }) => ph === "X" && /RunTask$/.test(name));
+  for (const { pid: process, tid: thread, ts, dur = 0 } of tasks) {
+    // The program that drives the browser is served by the browser's own process.
+    const isGraphics = graphics.has(process);
+    if (process !== pid && !isGraphics) continue;
+    const frame = ends.findLastIndex((end) => end <= ts);
+    if (frame < 0 || frame >= main.length) continue;
+    all[frame] += dur / 1000;
+    if (process === pid && thread === tid) main[frame] += dur / 1000;
+  }
+  return { main, all };
+}
+
 /** A round blob of so many knots. @param {number} count */
 const blob = (count) => ({
   faircurve: 1,
@@ -30,7 +56,8 @@ const blob = (count) => ({
 });
 
 /**
- * Drags the first knot around, and measures each frame from the pointer's event to the last line drawn.
+ * Drags a knot around, and measures each frame: the script from the pointer's event to the last line drawn; and, by a trace,
+ * the whole frame with style, layout, painting and what other threads do with it.
  * @param {string} name
  * @param {(page: import("./helpers.js").Page) => Promise<void>} prepare
  * @param {string[]} keys
@@ -62,7 +89,23 @@ async function dragged(name, prepare, keys = []) {
     }
     return times.slice(20);
   }, /** @type {[number, number, number]} */ ([...from, FRAMES]));
-  tell(name, script);
+  await browser.startTracing(page, { categories: ["toplevel", "blink.user_timing", "__metadata"] });
+  await page.evaluate(async ([x, y, frames]) => {
+    const { stage } = /** @type {any} */ (globalThis).faircurveEditor;
+    for (let i = 0; i < frames; i++) {
+      performance.mark("frame");
+      const angle = i / 20;
+      stage.canvas.dispatchEvent(new PointerEvent("pointermove", { clientX: x + 30 * Math.sin(angle), clientY: y + 20 * Math.sin(1.7 * angle), pointerId: 1, pointerType: "mouse", bubbles: true }));
+      // The page draws in the next frame, and it is on the screen after the one that follows.
+      await new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
+    }
+  }, /** @type {[number, number, number]} */ ([...from, FRAMES]));
+  const { traceEvents } = JSON.parse(String(await browser.stopTracing()));
+  const { main, all } = wholeFrames(traceEvents);
+  console.log(name);
+  tell("  script", script);
+  tell("  main thread, whole frame", main.slice(20));
+  tell("  all threads, whole frame", all.slice(20));
   await page.mouse.up();
   await context.close();
 }

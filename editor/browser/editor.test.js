@@ -361,6 +361,7 @@ test("curvature, tension and curl are typed in and taken away, and a contour's o
   await type("curvature after, in 1/units", "");
   assert.equal((await knot()).curvature_out, undefined);
   assert.equal(await page.getByText("hobby takes no curvature here").count(), 0);
+  await page.locator("#canvas").focus();
   await page.keyboard.press("Control+z");
   assert.equal((await knot()).curvature_out, 0.0025);
   await page.getByLabel("Spline of this contour").selectOption("mec");
@@ -371,6 +372,7 @@ test("curvature, tension and curl are typed in and taken away, and a contour's o
     slider.dispatchEvent(new Event("change", { bubbles: true }));
   });
   assert.equal((await state(page)).contours[0].params?.penalty, 0.5);
+  await page.locator("#canvas").focus();
   await page.keyboard.press("Control+z");
   assert.equal((await state(page)).contours[0].params?.penalty, undefined);
   assert.deepEqual(problems, []);

@@ -18,7 +18,7 @@ export function buildPlot(app) {
   const canvas = h("canvas", { role: "img" });
   const title = h("p", { class: "plot-title" });
   panel.append(canvas, title);
-  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { desynchronized: true }));
   /** Of the pointer. @type {number | null} */
   let pointerX = null;
   canvas.addEventListener("pointermove", (event) => {

@@ -41,7 +41,8 @@ export class Stage {
     this.editor = editor;
     this.store = store;
     this.settings = settings;
-    this.context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { alpha: false }));
+    // Desynchronized, the drawing doesn't wait for the rest of the page: half of a frame's time, and the curve stays under the hand.
+    this.context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { alpha: false, desynchronized: true }));
     editor.subscribe(() => this.invalidate());
     settings.subscribe(() => this.restyle());
     new ResizeObserver(() => this.#resize()).observe(canvas);
