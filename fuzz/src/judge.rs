@@ -62,7 +62,8 @@ pub fn violation(contour: &Contour, solution: &Solution) -> (f64, String) {
         let (arriving, leaving) = (before.curvature_jet(before.length()), after.curvature_jet(0.0));
         let jump = |order: usize| (leaving[order] - arriving[order]) * h.powi(order as i32 + 1);
         if at.join != Join::G1 {
-            let least = arriving[0].abs().min(leaving[0].abs()) * h;
+            // At what is all but a cusp, as the library defines it.
+            let least = arriving[0].abs().min(leaving[0].abs()) * h / 32.0;
             require(first, "curvature", jump(0) / least.max(1.0).powi(2));
         }
         let is_free = [first, next].map(|i| &contour.knots[i]).into_iter().all(|knot| {

@@ -208,8 +208,8 @@ pub struct SolveReport {
     pub iterations: usize,
     /// Dimensionless: the largest over all required equations of |Δκ⁽ʲ⁾|·hʲ⁺¹ (j = 0, 1, 2) with
     /// h the harmonic mean of the two chords, of |Δθ|, and of (end-point error)/chord. Two-parameter
-    /// splines may have what is all but a cusp at a knot: where |κ|·h > 1 on both sides, |Δκ|·h is
-    /// divided by the square of the smaller, as if it were the arctangent of κ·h that jumps.
+    /// splines may have what is all but a cusp at a knot: where |κ|·h > 32 on both sides, |Δκ|·h is
+    /// divided by the square of how many times so large the smaller is.
     pub residual: f64,
     /// The stage that the curve comes from: of the run that had to go furthest.
     pub stage: Stage,

@@ -75,3 +75,22 @@ fn of_several_curves_the_natural_one_is_given() {
     assert!((length(&forward) - length(&backward)).abs() < 1e-9 * length(&forward));
     assert!(longest(&spiro(&forward)) < 4.0);
 }
+
+/// Three turns round one circle, nearly: plain iteration creeps, and its jump of curvature was once measured as if the
+/// knots were cusps. What is called solved is so as the residual is defined.
+#[test]
+fn bends_are_not_excused_as_cusps() {
+    let contour = Contour::open([
+        (1340.632134522616, 0.0),
+        (-1340.6321240864638, 1.641800839596605e-13),
+        (1340.632128824576, -3.2836016907982385e-13),
+        (-1340.6321153826882, 4.925402486812662e-13),
+    ]);
+    let solution = solve(&contour, &*catalog::spline("euler").unwrap()).unwrap();
+    assert_eq!(solution.report.status(), Status::Solved, "{:?}", solution.report);
+    let chord = 2.0 * 1340.6;
+    for knot in &solution.knots[1..3] {
+        let jump = knot.curvature_out.unwrap() - knot.curvature_in.unwrap();
+        assert!((jump * chord).abs() <= 1.1e-9, "{jump:e}");
+    }
+}

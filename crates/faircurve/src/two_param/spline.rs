@@ -165,13 +165,15 @@ fn off_direction(a: f64, b: f64) -> f64 {
     wrap_angle(b - a).abs()
 }
 
-/// Of curvature times the harmonic mean of the chords; near a cusp, where that product is large, of
-/// its arctangent.
+/// Of curvature times the harmonic mean of the chords; at what is all but a cusp, where that product is
+/// large, less by the square of it.
 fn jump_of_curvature(before: &Segment, after: &Segment) -> f64 {
+    /// Curvature times chord from which on a bend is as good as a cusp.
+    const CUSP: f64 = 32.0;
     let (a, b) = (before.chord_length(), after.chord_length());
     let h = 2.0 * a * b / (a + b);
     let (arriving, leaving) = (before.curvature(before.length()) * h, after.curvature(0.0) * h);
-    let least = arriving.abs().min(leaving.abs()).max(1.0);
+    let least = (arriving.abs().min(leaving.abs()) / CUSP).max(1.0);
     ((leaving - arriving) / least / least).abs()
 }
 
