@@ -90,15 +90,33 @@ fn calm_contours_keep_their_canonical_curve_through_every_edit() {
 /// A knot added where the curve passes doesn't move it, and following takes hardly a step.
 #[test]
 fn inserting_on_the_curve_is_nearly_free() {
-    for index in [0, 4, 14] {
-        let mut live = LiveContour::new(outline(14, true), spline("spiro")).unwrap();
+    for (name, index) in ["spiro", "mvc"].into_iter().flat_map(|name| [0, 4, 14].map(|i| (name, i)))
+    {
+        let mut live = LiveContour::new(outline(14, true), spline(name)).unwrap();
         let before = live.clone();
         let segment = &before.solution().curve.segments()[(index + 13) % 14];
         live.insert(index, Knot::new(segment.point(0.3 * segment.length())));
         let solution = live.solve().unwrap();
-        assert!(solution.report.iterations <= 2, "{}", solution.report.iterations);
+        assert!(solution.report.iterations <= 2, "{name}: {}", solution.report.iterations);
         let (a, b) = (before.solution().curve.length(), solution.curve.length());
-        assert!((a - b).abs() < 1e-8, "{a} {b}");
+        assert!((a - b).abs() < 1e-8, "{name}: {a} {b}");
+    }
+}
+
+/// A knot that hardly moves takes fewer steps than the curve found anew: it is followed.
+#[test]
+fn a_small_move_takes_fewer_steps_than_solving_anew() {
+    for name in ["spiro", "mvc", "euler", "log-aesthetic", "bespoke"] {
+        for closed in [true, false] {
+            let mut live = LiveContour::new(outline(14, closed), spline(name)).unwrap();
+            let mut knot = live.contour().knots[5].clone();
+            knot.point.x += 0.01;
+            live.set_knot(5, knot);
+            let anew = solve(live.contour(), live.spline()).unwrap().report.iterations;
+            let followed = live.solve().unwrap().report.iterations;
+            assert!(followed < anew, "{name}, closed {closed}: {followed} steps, anew {anew}");
+            assert_canonical(&live, "a small move");
+        }
     }
 }
 

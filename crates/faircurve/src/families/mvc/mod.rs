@@ -66,6 +66,14 @@ impl Spline for Mvc {
         ConstraintSpline::new(MinimumVariation).solve_plainly(run)
     }
 
+    /// Newton's method on this family strays further than on polynomial spirals: what takes many steps
+    /// isn't the curve nearby.
+    fn follow(&self, run: &Run, near: &[Segment]) -> Option<RunSolution> {
+        const MOST_STEPS: usize = 8;
+        let own = ConstraintSpline::new(MinimumVariation).follow(run, near)?;
+        (own.iterations <= MOST_STEPS && longest(&own).0 <= LOOP).then_some(own)
+    }
+
     /// Where the curve found winds or is relaxed, and that of polynomial spirals, which is nearly the
     /// same curve, less so, the whole run is drawn as the latter.
     fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution {
@@ -132,6 +140,18 @@ impl FourParamFamily for MinimumVariation {
             Some(curve) => Segment::unit_curve(start, end, Arc::new(curve)),
             None => Segment::line(start, end),
         }
+    }
+
+    /// Any segment has a curvature and its derivatives in its middle; of curves of this family they
+    /// are the parameters.
+    fn parameters(&self, segment: &Segment) -> Option<[f64; 4]> {
+        let length = segment.length();
+        let jet = segment.curvature_jet(length / 2.0);
+        let mut unit = 1.0;
+        Some(jet.map(|derivative| {
+            unit *= length;
+            derivative * unit
+        }))
     }
 
     /// As for polynomial spirals.
