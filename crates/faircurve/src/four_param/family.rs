@@ -1,5 +1,7 @@
 //! The rung of four-parameter families: what the spline solver sees of a segment.
 
+use std::fmt;
+
 use kurbo::Point;
 
 use crate::segment::Segment;
@@ -25,7 +27,7 @@ pub struct Response {
 
 /// Curves with four parameters for given ends, such as polynomial spirals or minimum variation
 /// curves. Parameters are the family's own business; all zero must be the straight line.
-pub trait FourParamFamily {
+pub trait FourParamFamily: fmt::Debug {
     /// The ends of the segment with these parameters, for unit chord.
     fn respond(&self, parameters: [f64; 4]) -> Response;
 

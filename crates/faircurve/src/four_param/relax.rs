@@ -4,7 +4,6 @@
 use std::ops::RangeInclusive;
 
 use super::budget::Budget;
-use super::family::FourParamFamily;
 use super::spline::{ConstraintSpline, Means, Solved, is_interior};
 use super::strategy::UNSETTLED;
 use crate::frame::{direction, wrap_angle};
@@ -13,7 +12,7 @@ use crate::plan::Run;
 use crate::spline::{Place, Relaxation};
 use crate::tolerance::SOLVED;
 
-impl<F: FourParamFamily> ConstraintSpline<F> {
+impl ConstraintSpline<'_> {
     /// Weakens what is asked where the run doesn't settle, until it does: joins to G2, and if that
     /// isn't enough to G1; curvatures given at bad ends to none. First one knot or two
     /// ([`few`](Self::relax_few)); then more at once, with a search each time

@@ -15,8 +15,8 @@ use crate::tolerance::SOLVED;
 
 /// A four-parameter family with the joins of Table 7.1.
 #[derive(Clone, Copy, Debug)]
-pub struct ConstraintSpline<F> {
-    family: F,
+pub struct ConstraintSpline<'a> {
+    family: &'a dyn FourParamFamily,
 }
 
 /// A run solved with certain joins.
@@ -34,11 +34,7 @@ pub(super) struct Solved {
 
 impl Solved {
     /// What a system has come to.
-    fn of<F: FourParamFamily>(
-        mut system: RunSystem<'_, F>,
-        iterations: usize,
-        stage: Stage,
-    ) -> Solved {
+    fn of(mut system: RunSystem<'_>, iterations: usize, stage: Stage) -> Solved {
         system.clean();
         Solved {
             residuals: (0..system.knots.len()).map(|i| system.knot_residual(i)).collect(),
@@ -77,9 +73,9 @@ pub(super) enum Means {
     Search,
 }
 
-impl<F: FourParamFamily> ConstraintSpline<F> {
+impl<'a> ConstraintSpline<'a> {
     /// The spline of this family.
-    pub fn new(family: F) -> Self {
+    pub fn new(family: &'a dyn FourParamFamily) -> Self {
         ConstraintSpline { family }
     }
 
@@ -92,7 +88,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
     /// Solves one run from segments that are known, in their windings, if plain Newton iteration
     /// does without more loops.
     pub fn follow(&self, run: &Run, near: &[Segment]) -> Option<RunSolution> {
-        let mut system = RunSystem::new(&self.family, run);
+        let mut system = RunSystem::new(self.family, run);
         let known: Option<Vec<_>> = near.iter().map(|s| self.family.parameters(s)).collect();
         system.parameters = known.filter(|known| known.len() == run.segment_count())?;
         system.evaluate();
@@ -122,7 +118,7 @@ impl<F: FourParamFamily> ConstraintSpline<F> {
 
     /// Solves a run without G1 knots, as well as means and budget allow.
     fn solve_smooth(&self, run: &Run, means: Means, budget: &mut Budget) -> Solved {
-        let mut system = RunSystem::new(&self.family, run);
+        let mut system = RunSystem::new(self.family, run);
         let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
         let (plain, is_good) =
             strategy::solve_plainly(&mut system, &mut matrix, budget, || self.arcs(run));

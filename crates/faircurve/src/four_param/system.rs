@@ -45,8 +45,8 @@ pub(super) struct SystemKnot {
 pub(super) type State = (Vec<[f64; 4]>, Vec<f64>);
 
 /// The equations of a run, with the state of its segments.
-pub(super) struct RunSystem<'a, F> {
-    family: &'a F,
+pub(super) struct RunSystem<'a> {
+    family: &'a dyn FourParamFamily,
     pub knots: Vec<SystemKnot>,
     chords: Vec<f64>,
     /// The family's parameters of each segment: the state.
@@ -59,9 +59,9 @@ pub(super) struct RunSystem<'a, F> {
     rough: bool,
 }
 
-impl<'a, F: FourParamFamily> RunSystem<'a, F> {
+impl<'a> RunSystem<'a> {
     /// The equations of `run`, from straight segments.
-    pub(super) fn new(family: &'a F, run: &Run) -> Self {
+    pub(super) fn new(family: &'a dyn FourParamFamily, run: &Run) -> Self {
         let n = run.knots.len();
         let segments = run.segment_count();
         let chords: Vec<f64> = (0..segments).map(|i| run.chord(i).hypot()).collect();
@@ -292,7 +292,7 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
     }
 
     /// The family.
-    pub(super) fn family(&self) -> &'a F {
+    pub(super) fn family(&self) -> &'a dyn FourParamFamily {
         self.family
     }
 
@@ -415,7 +415,7 @@ impl<'a, F: FourParamFamily> RunSystem<'a, F> {
     }
 }
 
-impl<F> Clone for RunSystem<'_, F> {
+impl Clone for RunSystem<'_> {
     fn clone(&self) -> Self {
         RunSystem {
             family: self.family,
@@ -430,7 +430,7 @@ impl<F> Clone for RunSystem<'_, F> {
     }
 }
 
-impl<F: FourParamFamily> System<2> for RunSystem<'_, F> {
+impl System<2> for RunSystem<'_> {
     fn linearize(&mut self, matrix: &mut BlockTridiagonal<2>) -> f64 {
         self.evaluate();
         let n = self.knots.len();

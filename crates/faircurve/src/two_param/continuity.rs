@@ -56,7 +56,7 @@ impl<M: CurvatureMap> TangentRule for Continuity<M> {
         if steps == 0 || self.map.is_linear() {
             return self.tangents(run);
         }
-        let mut exact = TangentSystem::new(self, run);
+        let mut exact = TangentSystem::new(&self.map, self.end, run);
         let mut matrix = BlockTridiagonal::new(n, run.closed);
         let mut rounded = exact.rounded();
         let start = rounded.tangents.clone();
@@ -94,7 +94,7 @@ impl<M: CurvatureMap> TangentRule for Continuity<M> {
 impl<M: CurvatureMap> Continuity<M> {
     /// The tangents found from those of another map for the same run, or from circles.
     pub fn tangents_from(&self, run: &Run, start: Option<&[ChordAngles]>) -> Tangents {
-        let mut system = TangentSystem::new(self, run);
+        let mut system = TangentSystem::new(&self.map, self.end, run);
         if let Some(start) = start {
             system.start_from(start);
         }
@@ -133,8 +133,8 @@ enum Equation {
 }
 
 /// The tangents of a run and the equations for them.
-struct TangentSystem<'a, M> {
-    map: &'a M,
+struct TangentSystem<'a> {
+    map: &'a dyn CurvatureMap,
     contexts: Vec<SegmentContext>,
     turns: Vec<f64>,
     equations: Vec<Equation>,
@@ -149,8 +149,8 @@ struct TangentSystem<'a, M> {
     adapted: Vec<Adaptation>,
 }
 
-impl<'a, M: CurvatureMap> TangentSystem<'a, M> {
-    fn new(rule: &'a Continuity<M>, run: &Run) -> Self {
+impl<'a> TangentSystem<'a> {
+    fn new(map: &'a dyn CurvatureMap, end: NaturalEnd, run: &Run) -> Self {
         let n = run.knots.len();
         let segments = run.segment_count();
         let mut adapted = Vec::new();
@@ -171,7 +171,7 @@ impl<'a, M: CurvatureMap> TangentSystem<'a, M> {
                         })
                     }
                     (true, None, Some(curvature)) => Equation::Curvature(curvature),
-                    (true, None, None) => Equation::End(match (rule.end, knot.curl) {
+                    (true, None, None) => Equation::End(match (end, knot.curl) {
                         (NaturalEnd::Curl(_), Some(curl)) => NaturalEnd::Curl(curl),
                         (end, _) => end,
                     }),
@@ -185,7 +185,7 @@ impl<'a, M: CurvatureMap> TangentSystem<'a, M> {
             })
             .collect();
         let mut system = TangentSystem {
-            map: &rule.map,
+            map,
             contexts: (0..segments).map(|i| context(run, i)).collect(),
             turns: run.knots.iter().map(|knot| knot.turn).collect(),
             equations,
@@ -357,7 +357,7 @@ struct Row {
     upper: f64,
 }
 
-impl<M: CurvatureMap> TangentSystem<'_, M> {
+impl TangentSystem<'_> {
     /// The equation of knot `i`. Its unknown is `theta0` of the segment after it, which is the turn
     /// less `theta1` of the one before; at the end of an open run, `theta1` itself.
     fn row(&self, i: usize) -> Row {
@@ -508,7 +508,7 @@ impl<M: CurvatureMap> TangentSystem<'_, M> {
     }
 }
 
-impl<M: CurvatureMap> System<1> for TangentSystem<'_, M> {
+impl System<1> for TangentSystem<'_> {
     fn linearize(&mut self, matrix: &mut BlockTridiagonal<1>) -> f64 {
         let n = self.tangents.len();
         self.responses.clear();

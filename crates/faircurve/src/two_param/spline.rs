@@ -31,6 +31,33 @@ impl<R: TangentRule, S: SegmentShape> TwoParamSpline<R, S> {
 
     /// The curve through the knots of a run with these tangents.
     pub(crate) fn draw(&self, run: &Run, tangents: Tangents) -> RunSolution {
+        self.drawing().draw(run, tangents)
+    }
+
+    /// What holds of a drawn run: knots whose equation isn't met, and those where the segments turn out
+    /// not to fit together, are relaxed.
+    pub(crate) fn assess(
+        &self,
+        run: &Run,
+        tangents: Tangents,
+        segments: Vec<Segment>,
+    ) -> RunSolution {
+        self.drawing().assess(run, tangents, segments)
+    }
+
+    fn drawing(&self) -> Drawing<'_> {
+        Drawing { info: self.info, shape: &self.shape }
+    }
+}
+
+/// The part of a spline that doesn't depend on the rule that its tangents are of.
+struct Drawing<'a> {
+    info: &'static SplineInfo,
+    shape: &'a dyn SegmentShape,
+}
+
+impl Drawing<'_> {
+    fn draw(&self, run: &Run, tangents: Tangents) -> RunSolution {
         let n = run.knots.len();
         let (segments, stand_ins): (Vec<Segment>, Vec<Option<StandIn>>) = tangents
             .ends
@@ -53,14 +80,7 @@ impl<R: TangentRule, S: SegmentShape> TwoParamSpline<R, S> {
         solution
     }
 
-    /// What holds of a drawn run: knots whose equation isn't met, and those where the segments turn out
-    /// not to fit together, are relaxed.
-    pub(crate) fn assess(
-        &self,
-        run: &Run,
-        tangents: Tangents,
-        segments: Vec<Segment>,
-    ) -> RunSolution {
+    fn assess(&self, run: &Run, tangents: Tangents, segments: Vec<Segment>) -> RunSolution {
         let n = run.knots.len();
         let Tangents { mut adapted, iterations, stage, mismatch, .. } = tangents;
         let mut relaxed = Vec::new();
@@ -106,6 +126,13 @@ impl<R: TangentRule, S: SegmentShape> TwoParamSpline<R, S> {
 
     fn keeps_curvature(&self) -> bool {
         self.info.continuity() >= 2 && self.shape.keeps_curvature()
+    }
+
+    fn default_join(&self) -> Join {
+        match self.info.default_join {
+            Join::G2 if !self.keeps_curvature() => Join::G1,
+            join => join,
+        }
     }
 
     /// A knot whose equation isn't met, or where the curve even turns round.
@@ -183,10 +210,7 @@ impl<R: TangentRule, S: SegmentShape> Spline for TwoParamSpline<R, S> {
     }
 
     fn default_join(&self) -> Join {
-        match self.info.default_join {
-            Join::G2 if !self.keeps_curvature() => Join::G1,
-            join => join,
-        }
+        self.drawing().default_join()
     }
 
     fn adapt(&self, join: Join) -> Join {

@@ -121,7 +121,7 @@ impl Spline for Euler {
         if !near.iter().any(winds) {
             return self.spline.follow(run, near).filter(|solved| !has_loops(solved));
         }
-        let wider = ConstraintSpline::new(PolynomialSpirals).follow(&self.as_g2(run), near)?;
+        let wider = ConstraintSpline::new(&PolynomialSpirals).follow(&self.as_g2(run), near)?;
         let adapted = self.spline.solve_run(run, Effort::NONE).adapted;
         Some(RunSolution { adapted, ..wider })
     }
@@ -130,7 +130,7 @@ impl Spline for Euler {
     /// windings is that of the polynomial spirals, of which all-G2 runs are Euler spirals.
     fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution {
         let solved = self.spline.solve_run(run, Effort::NONE);
-        let wider = ConstraintSpline::new(PolynomialSpirals).solve_run(&self.as_g2(run), effort);
+        let wider = ConstraintSpline::new(&PolynomialSpirals).solve_run(&self.as_g2(run), effort);
         RunSolution {
             adapted: solved.adapted,
             iterations: solved.iterations + wider.iterations,

@@ -63,21 +63,21 @@ impl Spline for Mvc {
     }
 
     fn solve_plainly(&self, run: &Run) -> Option<RunSolution> {
-        ConstraintSpline::new(MinimumVariation).solve_plainly(run)
+        ConstraintSpline::new(&MinimumVariation).solve_plainly(run)
     }
 
     /// Newton's method on this family strays further than on polynomial spirals: what takes many steps
     /// isn't the curve nearby.
     fn follow(&self, run: &Run, near: &[Segment]) -> Option<RunSolution> {
         const MOST_STEPS: usize = 8;
-        let own = ConstraintSpline::new(MinimumVariation).follow(run, near)?;
+        let own = ConstraintSpline::new(&MinimumVariation).follow(run, near)?;
         (own.iterations <= MOST_STEPS && longest(&own).0 <= LOOP).then_some(own)
     }
 
     /// Where the curve found winds or is relaxed, and that of polynomial spirals, which is nearly the
     /// same curve, less so, the whole run is drawn as the latter.
     fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution {
-        let own = ConstraintSpline::new(MinimumVariation).solve_run(run, effort.of_costlier(COST));
+        let own = ConstraintSpline::new(&MinimumVariation).solve_run(run, effort.of_costlier(COST));
         let (longest, segment) = longest(&own);
         if own.relaxed.is_empty() && longest <= LOOP {
             return own;

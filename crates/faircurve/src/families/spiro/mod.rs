@@ -57,15 +57,15 @@ impl Spline for Spiro {
     }
 
     fn solve_plainly(&self, run: &Run) -> Option<RunSolution> {
-        ConstraintSpline::new(PolynomialSpirals).solve_plainly(run)
+        ConstraintSpline::new(&PolynomialSpirals).solve_plainly(run)
     }
 
     fn follow(&self, run: &Run, near: &[Segment]) -> Option<RunSolution> {
-        ConstraintSpline::new(PolynomialSpirals).follow(run, near)
+        ConstraintSpline::new(&PolynomialSpirals).follow(run, near)
     }
 
     fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution {
-        ConstraintSpline::new(PolynomialSpirals).solve_run(run, effort)
+        ConstraintSpline::new(&PolynomialSpirals).solve_run(run, effort)
     }
 }
 

@@ -7,7 +7,6 @@
 //! ([`FourParamFamily::between_ends`]); with any of them in place the whole settles in a few steps.
 
 use super::{Badness, FEW, LONG, REACH, Rescue, UNSETTLED};
-use crate::four_param::family::FourParamFamily;
 use crate::four_param::system::RunSystem;
 use crate::frame::wrap_angle;
 use crate::numeric::block_tridiagonal::BlockTridiagonal;
@@ -15,7 +14,7 @@ use crate::tolerance::LOOP;
 
 impl Rescue {
     /// Rebuilds a run around its most prominent segment; whether it settles there.
-    pub(super) fn bridge<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>) -> bool {
+    pub(super) fn bridge(&mut self, system: &mut RunSystem<'_>) -> bool {
         /// Segments less prominent than this don't dominate their neighbours. Anything from 1 to 10
         /// solves about as many; up to 5 the straight forms also replace loops of closed walks of 4.
         const PROMINENT: f64 = 5.0;
@@ -47,11 +46,7 @@ impl Rescue {
     }
 
     /// Solves what lies on both sides of a segment as if it ended there; whether it settles.
-    fn solve_chains<F: FourParamFamily>(
-        &mut self,
-        system: &mut RunSystem<'_, F>,
-        segment: usize,
-    ) -> bool {
+    fn solve_chains(&mut self, system: &mut RunSystem<'_>, segment: usize) -> bool {
         let n = system.knots.len();
         let (start, end) = (segment, (segment + 1) % n);
         system.parameters.fill([0.0; 4]);
@@ -82,7 +77,7 @@ impl Rescue {
 
     /// Hangs a segment between chains that are solved: in the straightest form with which the whole
     /// settles. Whether there is one.
-    fn hang<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>, segment: usize) -> bool {
+    fn hang(&mut self, system: &mut RunSystem<'_>, segment: usize) -> bool {
         /// What finding the forms costs, in segment evaluations.
         const COST: usize = 300;
         /// Forms tried, the straightest first.

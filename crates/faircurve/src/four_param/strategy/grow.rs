@@ -1,7 +1,6 @@
 //! Growing: a run built knot by knot.
 
 use super::{Rescue, UNSETTLED, turn_round};
-use crate::four_param::family::FourParamFamily;
 use crate::four_param::system::RunSystem;
 use crate::frame::wrap_angle;
 use crate::tolerance::LOOP;
@@ -15,14 +14,14 @@ const WINDINGS: usize = 4;
 
 impl Rescue {
     /// Builds the run knot by knot, from its first one.
-    pub(super) fn grow<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>) {
+    pub(super) fn grow(&mut self, system: &mut RunSystem<'_>) {
         let mut open = if system.is_closed() { system.opened() } else { system.clone() };
         self.grow_open(&mut open);
         self.return_to(system, &open.state());
     }
 
     /// Builds an open run knot by knot.
-    pub(super) fn grow_open<F: FourParamFamily>(&mut self, open: &mut RunSystem<'_, F>) {
+    pub(super) fn grow_open(&mut self, open: &mut RunSystem<'_>) {
         /// Attempts at adding one knot. With 16 of them half as many random G4 runs are solved.
         const ATTEMPTS: usize = 32;
         /// Attempts made to get rid of a loop, where the knot could be added with one.
@@ -32,7 +31,7 @@ impl Rescue {
         open.evaluate();
         for last in 2usize..open.knots.len() {
             let first = last.saturating_sub(NEAR);
-            let mut straightest: Option<(f64, RunSystem<'_, F>)> = None;
+            let mut straightest: Option<(f64, RunSystem<'_>)> = None;
             for attempt in 0..ATTEMPTS {
                 let mut window = open.window(first, last);
                 self.vary(&mut window, attempt);
@@ -65,7 +64,7 @@ impl Rescue {
 
     /// How the end of a growing run is varied from one attempt to the next: first the windings of
     /// its last two knots, then the last few segments anew from seeds.
-    fn vary<F: FourParamFamily>(&mut self, window: &mut RunSystem<'_, F>, attempt: usize) {
+    fn vary(&mut self, window: &mut RunSystem<'_>, attempt: usize) {
         const SHARE_TURNED: f64 = 0.4;
         let (knots, segments) = (window.knots.len(), window.parameters.len());
         if attempt < WINDINGS {

@@ -3,7 +3,6 @@
 use std::ops::Range;
 
 use super::{Badness, REACH, Rescue, UNSETTLED, is_unsettled, turn_round};
-use crate::four_param::family::FourParamFamily;
 use crate::four_param::system::RunSystem;
 use crate::frame::wrap_angle;
 
@@ -13,7 +12,7 @@ const LESS: f64 = 0.98;
 
 impl Rescue {
     /// Restarts bad stretches until all are good or one has had its share of attempts.
-    pub(super) fn mend<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>) {
+    pub(super) fn mend(&mut self, system: &mut RunSystem<'_>) {
         /// Attempts without success after which the run as a whole deserves a look.
         const PATIENCE: usize = 60;
         /// Knots on either side of a bad stretch that are restarted with it.
@@ -49,7 +48,7 @@ impl Rescue {
 
     /// Restarts the surroundings of segments that bend much, and keeps what bends less: a search may
     /// have come upon a curve that winds more than it must.
-    pub(super) fn straighten<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>) {
+    pub(super) fn straighten(&mut self, system: &mut RunSystem<'_>) {
         /// Bend of a segment below which there is nothing to gain, in radians: an arc of 230°.
         const BENT: f64 = 2.0;
         const ATTEMPTS: usize = 24;
@@ -88,13 +87,13 @@ impl Rescue {
 
     /// Gives the stretch between two knots another winding and another start; returns it if it
     /// settles with its rim held.
-    fn restart<'a, F: FourParamFamily>(
+    fn restart<'a>(
         &mut self,
-        system: &RunSystem<'a, F>,
+        system: &RunSystem<'a>,
         from: usize,
         to: usize,
         attempt: usize,
-    ) -> Option<RunSystem<'a, F>> {
+    ) -> Option<RunSystem<'a>> {
         /// Turns smaller than this (in radians) are hardly ever the wrong way round.
         const GENTLE: f64 = 1.0;
         /// After so many attempts they are tried as well.
@@ -133,12 +132,7 @@ impl Rescue {
 
     /// Gives a segment parameters of about the size that hard solutions have, with what is zero
     /// there zero.
-    pub(super) fn seed<F: FourParamFamily>(
-        &mut self,
-        window: &mut RunSystem<'_, F>,
-        segment: usize,
-        amplitude: f64,
-    ) {
+    pub(super) fn seed(&mut self, window: &mut RunSystem<'_>, segment: usize, amplitude: f64) {
         const SIZES: [f64; 4] = [1.0, 4.0, 10.0, 40.0];
         window.parameters[segment] =
             SIZES.map(|size| self.sense * amplitude * size * (2.0 * self.random.next() - 1.0));
@@ -147,7 +141,7 @@ impl Rescue {
 
     /// Seeds all segments and makes one of them, whichever it is, a loop; windings are those in which
     /// directions then differ least.
-    fn seed_loop<F: FourParamFamily>(&mut self, window: &mut RunSystem<'_, F>) {
+    fn seed_loop(&mut self, window: &mut RunSystem<'_>) {
         /// Curvatures of a loop of length 1: around 2π, at which the chord vanishes.
         const CURVATURES: Range<f64> = 5.0..8.0;
         for segment in 0..window.parameters.len() {
@@ -163,12 +157,7 @@ impl Rescue {
     }
 
     /// Lets the surroundings of a mended stretch adapt to it.
-    fn settle_around<F: FourParamFamily>(
-        &mut self,
-        system: &mut RunSystem<'_, F>,
-        from: usize,
-        to: usize,
-    ) {
+    fn settle_around(&mut self, system: &mut RunSystem<'_>, from: usize, to: usize) {
         let n = system.knots.len();
         let inside = if to > from { to - from } else { to + n - from };
         if inside + 2 * REACH >= n {
@@ -188,10 +177,7 @@ impl Rescue {
 
 /// The stretches around bad knots, or around loops if there are none, with a margin of so many knots on either side, as
 /// first and last knot; a stretch that covers a whole closed run has both the same.
-fn bad_stretches<F: FourParamFamily>(
-    system: &RunSystem<'_, F>,
-    margin: usize,
-) -> Vec<(usize, usize)> {
+fn bad_stretches(system: &RunSystem<'_>, margin: usize) -> Vec<(usize, usize)> {
     let n = system.knots.len();
     let closed = system.is_closed();
     let mut near: Vec<bool> = (0..n).map(|i| is_unsettled(system, i)).collect();

@@ -28,7 +28,6 @@ use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
 use crate::four_param::budget::Budget;
-use crate::four_param::family::FourParamFamily;
 use crate::four_param::system::{RunSystem, State, SystemKnot};
 use crate::frame::wrap_angle;
 use crate::numeric::block_tridiagonal::BlockTridiagonal;
@@ -71,8 +70,8 @@ const REACH: usize = 10;
 
 /// Stage 1. Solves the system if plain iteration leads to a curve without loops; else leaves the
 /// state that it ended in. `arcs` gives segments between circle tangents.
-pub(in crate::four_param) fn solve_plainly<F: FourParamFamily>(
-    system: &mut RunSystem<'_, F>,
+pub(in crate::four_param) fn solve_plainly(
+    system: &mut RunSystem<'_>,
     matrix: &mut BlockTridiagonal<2>,
     budget: &mut Budget,
     arcs: impl Fn() -> Vec<[f64; 4]>,
@@ -95,16 +94,16 @@ pub(in crate::four_param) fn solve_plainly<F: FourParamFamily>(
 }
 
 /// Newton's method from a state that is nearly the solution.
-pub(in crate::four_param) fn settle<F: FourParamFamily>(
-    system: &mut RunSystem<'_, F>,
+pub(in crate::four_param) fn settle(
+    system: &mut RunSystem<'_>,
     matrix: &mut BlockTridiagonal<2>,
 ) -> Outcome {
     newton(system, matrix, PLAIN)
 }
 
 /// Stages 2 to 4, from the state that [`solve_plainly`] left. Ends in the best state found.
-pub(in crate::four_param) fn search<F: FourParamFamily>(
-    system: &mut RunSystem<'_, F>,
+pub(in crate::four_param) fn search(
+    system: &mut RunSystem<'_>,
     matrix: &mut BlockTridiagonal<2>,
     plain: Outcome,
     budget: &mut Budget,
@@ -132,8 +131,8 @@ pub(in crate::four_param) fn search<F: FourParamFamily>(
 }
 
 /// Knots on a circle: the circle it is, though most of it may lie between two of them.
-fn solve_round<F: FourParamFamily>(
-    system: &mut RunSystem<'_, F>,
+fn solve_round(
+    system: &mut RunSystem<'_>,
     matrix: &mut BlockTridiagonal<2>,
     budget: &mut Budget,
     arcs: Vec<[f64; 4]>,
@@ -152,7 +151,7 @@ fn solve_round<F: FourParamFamily>(
 }
 
 /// Segment evaluations of Newton's method that has taken so many steps.
-fn cost<F: FourParamFamily>(system: &RunSystem<'_, F>, steps: usize) -> usize {
+fn cost(system: &RunSystem<'_>, steps: usize) -> usize {
     (steps + 1) * system.parameters.len()
 }
 
@@ -168,7 +167,7 @@ struct Badness {
 impl Badness {
     const NONE: Badness = Badness { unsettled: 0, loops: 0 };
 
-    fn of<F: FourParamFamily>(system: &RunSystem<'_, F>) -> Self {
+    fn of(system: &RunSystem<'_>) -> Self {
         Badness {
             unsettled: (0..system.knots.len()).filter(|&i| is_unsettled(system, i)).count(),
             loops: system.loops().count(),
@@ -176,7 +175,7 @@ impl Badness {
     }
 }
 
-fn is_unsettled<F: FourParamFamily>(system: &RunSystem<'_, F>, knot: usize) -> bool {
+fn is_unsettled(system: &RunSystem<'_>, knot: usize) -> bool {
     !(system.knot_residual(knot) <= UNSETTLED)
 }
 
@@ -212,7 +211,7 @@ struct Best {
 }
 
 impl Best {
-    fn of<F: FourParamFamily>(system: &RunSystem<'_, F>, residual: f64, stage: Stage) -> Best {
+    fn of(system: &RunSystem<'_>, residual: f64, stage: Stage) -> Best {
         let merit = Merit { badness: Badness::of(system), residual, bend: system.total_bend() };
         Best { state: system.state(), merit, stage }
     }
@@ -232,7 +231,7 @@ struct Rescue {
 }
 
 impl Rescue {
-    fn new<F: FourParamFamily>(system: &RunSystem<'_, F>, budget: Budget) -> Self {
+    fn new(system: &RunSystem<'_>, budget: Budget) -> Self {
         let first = system.knots.iter().find(|knot| knot.turn.abs() > 1e-6);
         let sense = first.map_or(1.0, |knot| knot.turn.signum());
         Rescue { budget, random: Random(0), sense, iterations: 0 }
@@ -240,11 +239,7 @@ impl Rescue {
 
     /// Leaves the best state found in `system`, and says which stage it comes from. Once the
     /// run is solved, what is kept for relaxing serves to be rid of loops.
-    fn run<F: FourParamFamily>(
-        &mut self,
-        system: &mut RunSystem<'_, F>,
-        matrix: &mut BlockTridiagonal<2>,
-    ) -> Stage {
+    fn run(&mut self, system: &mut RunSystem<'_>, matrix: &mut BlockTridiagonal<2>) -> Stage {
         /// Growing costs at least this much a knot.
         const COST: usize = 40;
         let n = system.knots.len();
@@ -292,9 +287,9 @@ impl Rescue {
     }
 
     /// Lets the whole run settle, and keeps it if that is the best so far.
-    fn settle<F: FourParamFamily>(
+    fn settle(
         &mut self,
-        system: &mut RunSystem<'_, F>,
+        system: &mut RunSystem<'_>,
         matrix: &mut BlockTridiagonal<2>,
         stage: Stage,
         best: &mut Best,
@@ -306,15 +301,15 @@ impl Rescue {
         }
     }
 
-    fn solve_window<F: FourParamFamily>(&mut self, window: &mut RunSystem<'_, F>) -> Outcome {
+    fn solve_window(&mut self, window: &mut RunSystem<'_>) -> Outcome {
         let mut matrix = BlockTridiagonal::new(window.knots.len(), window.is_closed());
         let outcome = newton_while(window, &mut matrix, WINDOW, is_promising);
         self.count(window, outcome)
     }
 
-    fn newton<F: FourParamFamily>(
+    fn newton(
         &mut self,
-        system: &mut RunSystem<'_, F>,
+        system: &mut RunSystem<'_>,
         matrix: &mut BlockTridiagonal<2>,
         limits: Limits,
     ) -> Outcome {
@@ -322,18 +317,14 @@ impl Rescue {
         self.count(system, outcome)
     }
 
-    fn count<F: FourParamFamily>(
-        &mut self,
-        system: &RunSystem<'_, F>,
-        outcome: Outcome,
-    ) -> Outcome {
+    fn count(&mut self, system: &RunSystem<'_>, outcome: Outcome) -> Outcome {
         self.iterations += outcome.iterations;
         self.budget.spend(cost(system, outcome.iterations));
         outcome
     }
 
     /// Comes back to a state.
-    fn return_to<F: FourParamFamily>(&mut self, system: &mut RunSystem<'_, F>, state: &State) {
+    fn return_to(&mut self, system: &mut RunSystem<'_>, state: &State) {
         system.set_state(state);
         self.budget.spend(system.parameters.len());
     }
