@@ -237,6 +237,7 @@ mod tests {
     use crate::segment::Segment;
 
     /// Counts evaluations.
+    #[derive(Debug)]
     struct Counted<'a>(&'a Cell<usize>);
 
     impl Counted<'_> {
@@ -297,7 +298,8 @@ mod tests {
                         let evaluations = Cell::new(0);
                         let effort = Effort::times(effort);
                         let budget = effort.evaluations(run.knots.len());
-                        let _ = ConstraintSpline::new(Counted(&evaluations)).solve_run(run, effort);
+                        let _ =
+                            ConstraintSpline::new(&Counted(&evaluations)).solve_run(run, effort);
                         let beyond = BEYOND * run.segment_count();
                         let spent = evaluations.get();
                         most = most.max(spent as f64 / budget.max(1) as f64);
