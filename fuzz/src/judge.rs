@@ -58,12 +58,8 @@ pub fn violation(contour: &Contour, solution: &Solution) -> (f64, String) {
         let (a, b) = (before.chord_length(), after.chord_length());
         let h = 2.0 / (a.recip() + b.recip());
         let turn = after.direction(0.0) - before.direction(before.length());
+        require(first, "direction", wrap_angle(turn));
         let (arriving, leaving) = (before.curvature_jet(before.length()), after.curvature_jet(0.0));
-        // At what is all but a cusp the direction is that of a place which the knot's own rounding moves.
-        let bend = arriving[0].abs().min(leaving[0].abs());
-        let place = at.point.to_vec2().hypot().max(a).max(b);
-        let unknown = if bend * h > 32.0 { bend * place * f64::EPSILON } else { 0.0 };
-        require(first, "direction", (wrap_angle(turn).abs() - unknown).max(0.0));
         let jump = |order: usize| (leaving[order] - arriving[order]) * h.powi(order as i32 + 1);
         if at.join != Join::G1 {
             // At what is all but a cusp, as the library defines it.

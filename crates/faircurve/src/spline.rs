@@ -209,9 +209,7 @@ pub struct SolveReport {
     /// Dimensionless: the largest over all required equations of |Δκ⁽ʲ⁾|·hʲ⁺¹ (j = 0, 1, 2) with
     /// h the harmonic mean of the two chords, of |Δθ|, and of (end-point error)/chord. Two-parameter
     /// splines may have what is all but a cusp at a knot: where |κ|·h > 32 on both sides, |Δκ|·h is
-    /// divided by the square of how many times so large the smaller is. All is measured in the run's
-    /// own units, before the curve is set between the given points: there the rounding ε of their
-    /// coordinates turns a direction by up to |κ|·ε.
+    /// divided by the square of how many times so large the smaller is.
     pub residual: f64,
     /// The stage that the curve comes from: of the run that had to go furthest.
     pub stage: Stage,

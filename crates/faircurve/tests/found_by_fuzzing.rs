@@ -293,3 +293,20 @@ fn beziers_across_knots_get_on_where_segments_are_tiny() {
         }
     }
 }
+
+/// The tangent at a cusp is that of the curve's end, not of the place a rounding before it.
+#[test]
+fn directions_agree_at_a_knot_with_a_tiny_radius() {
+    let knots = [
+        (116.0, 7.0),
+        (0.6745098140090704, 0.6745098037645221),
+        (0.3776348037645221, 0.6745098037645221),
+        (0.6745098037645221, 0.674521564040333),
+    ];
+    let contour = Contour::closed(knots.map(|point| Knot::new(point).join(Join::G2)));
+    let solution = built("kappa", &[("method", "parabolas"), ("shape", "spiro")], &contour);
+    for knot in &solution.knots {
+        let turn = wrap_angle(knot.direction_out.unwrap() - knot.direction_in.unwrap());
+        assert!(turn.abs() <= 1e-9, "{turn}");
+    }
+}

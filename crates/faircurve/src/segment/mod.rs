@@ -304,7 +304,7 @@ impl Segment {
             Shape::Elastica(elastica) => self.heading + elastica.at(self.local(s)).direction,
             Shape::Unit(piece) => {
                 let turned = if piece.backwards { PI } else { 0.0 };
-                let place = piece.place(s / self.scale(piece));
+                let place = self.place_on(piece, s);
                 self.heading + piece.curve.direction(place) + turned
             }
             Shape::Chain(members) => {
@@ -330,7 +330,7 @@ impl Segment {
             }
             Shape::Unit(piece) => {
                 let scale = self.scale(piece);
-                let jet = piece.curve.curvature_jet(piece.place(s / scale));
+                let jet = piece.curve.curvature_jet(self.place_on(piece, s));
                 (jet, scale, piece.backwards)
             }
             Shape::Chain(members) => {
@@ -456,8 +456,7 @@ impl Segment {
                 Segment { start, end, shape, length, heading }
             }
             Shape::Unit(piece) => {
-                let scale = self.scale(piece);
-                let (a, b) = (piece.place(from / scale), piece.place(to / scale));
+                let (a, b) = (self.place_on(piece, from), self.place_on(piece, to));
                 let piece = UnitPiece { from: a.min(b), to: a.max(b), ..piece.clone() };
                 Segment { start, end, shape: Shape::Unit(piece), length, heading: self.heading }
             }
@@ -792,7 +791,7 @@ impl Segment {
             }
             Shape::Unit(piece) => {
                 let scale = self.scale(piece);
-                let (a, b) = (piece.place(from / scale), piece.place(to / scale));
+                let (a, b) = (self.place_on(piece, from), self.place_on(piece, to));
                 (piece.curve.curvature_bounds(a.min(b), a.max(b)), scale)
             }
             Shape::Chain(members) => {
@@ -832,6 +831,16 @@ impl Segment {
         if scale > 0.0 && scale.is_finite() { scale } else { 1.0 }
     }
 
+    /// The unit curve's arc length at arc length `s`: at the end its own to the bit, since next to a cusp
+    /// the last bit turns the curve.
+    fn place_on(&self, piece: &UnitPiece, s: f64) -> f64 {
+        match (s >= self.length, piece.backwards) {
+            (false, _) => piece.place(s / self.scale(piece)),
+            (true, false) => piece.to,
+            (true, true) => piece.from,
+        }
+    }
+
     /// A vector of the shape's own frame, turned into place.
     fn turned(&self, local: Complex64) -> Vec2 {
         let turned = local * Complex64::from_polar(1.0, self.heading);
@@ -839,7 +848,7 @@ impl Segment {
     }
 
     /// The member of a chain at arc length `s`, and the arc length within it. Where two meet, the
-    /// later one.
+    /// later one; the end is the last one's to the bit.
     fn member<'a>(&self, members: &'a [Segment], s: f64) -> (&'a Segment, f64) {
         let mut rest = s;
         for member in &members[..members.len() - 1] {
@@ -848,7 +857,8 @@ impl Segment {
             }
             rest -= member.length;
         }
-        (&members[members.len() - 1], rest)
+        let last = &members[members.len() - 1];
+        (last, if s < self.length { rest } else { last.length })
     }
 
     /// Both ends and the breaks between them, as arc lengths of the segment, ascending.
