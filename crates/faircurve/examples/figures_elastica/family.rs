@@ -16,6 +16,18 @@ fn name(lambda: f64) -> String {
     format!("λ = {}", (lambda * 1e4).round() / 1e4)
 }
 
+/// The elastica so far to both sides, y down, and its box.
+fn traced(elastica: &Elastica, length: f64, count: usize) -> (Vec<Point>, Rect) {
+    let points: Vec<Point> = steps(-length, length, count)
+        .map(|s| elastica.at(s).point)
+        .map(|p| Point::new(p.re, -p.im))
+        .collect();
+    let bounds = points
+        .iter()
+        .fold(Rect::from_points(points[0], points[0]), |bounds, p| bounds.union_pt(*p));
+    (points, bounds)
+}
+
 /// Figure 3.1: the family of elastica solutions.
 pub(crate) fn curves() -> String {
     const CELL: Vec2 = Vec2::new(230.0, 190.0);
@@ -29,13 +41,7 @@ pub(crate) fn curves() -> String {
             _ => 14.0,
         };
         let elastica = Elastica::with_lambda(lambda);
-        let points: Vec<Point> = steps(-length, length, 600)
-            .map(|s| elastica.at(s).point)
-            .map(|p| Point::new(p.re, -p.im))
-            .collect();
-        let bounds = points
-            .iter()
-            .fold(Rect::from_points(points[0], points[0]), |bounds, p| bounds.union_pt(*p));
+        let (points, bounds) = traced(&elastica, length, 600);
         let scale = (200.0 / bounds.width()).min(140.0 / bounds.height());
         let centre = corner + CELL / 2.0 - Vec2::new(0.0, 8.0);
         let place = |p: &Point| centre + (*p - bounds.center()) * scale;
@@ -91,13 +97,7 @@ pub(crate) fn pendulums() -> String {
         page.line([pivot, highest], INK, 1.5);
         page.dot(highest, 5.0, RED);
         page.dot(pivot, 2.5, INK);
-        let points: Vec<Point> = steps(-3.0 * quarter, 3.0 * quarter, 400)
-            .map(|s| elastica.at(s).point)
-            .map(|p| Point::new(p.re, -p.im))
-            .collect();
-        let bounds = points
-            .iter()
-            .fold(Rect::from_points(points[0], points[0]), |bounds, p| bounds.union_pt(*p));
+        let (points, bounds) = traced(&elastica, 3.0 * quarter, 400);
         let scale = (300.0 / bounds.width()).min(120.0 / bounds.height());
         let centre = Point::new(420.0, pivot.y);
         page.line(points.iter().map(|p| centre + (*p - bounds.center()) * scale), INK, 1.3);

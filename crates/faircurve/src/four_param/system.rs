@@ -45,6 +45,7 @@ pub(super) struct SystemKnot {
 pub(super) type State = (Vec<[f64; 4]>, Vec<f64>);
 
 /// The equations of a run, with the state of its segments.
+#[derive(Clone)]
 pub(super) struct RunSystem<'a> {
     family: &'a dyn FourParamFamily,
     pub knots: Vec<SystemKnot>,
@@ -412,21 +413,6 @@ impl<'a> RunSystem<'a> {
     fn weight(&self, knot: usize, segment: usize, order: usize) -> f64 {
         let ratio = self.knots[knot].h / self.chords[segment];
         if order == 1 { ratio * ratio } else { ratio * ratio * ratio }
-    }
-}
-
-impl Clone for RunSystem<'_> {
-    fn clone(&self) -> Self {
-        RunSystem {
-            family: self.family,
-            knots: self.knots.clone(),
-            chords: self.chords.clone(),
-            parameters: self.parameters.clone(),
-            responses: self.responses.clone(),
-            mismatch: self.mismatch.clone(),
-            closed: self.closed,
-            rough: self.rough,
-        }
     }
 }
 
