@@ -13,9 +13,9 @@ use crate::{at, root};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
-/// The modules: name, which is that of the crate's feature, too, and optimisation level. The solver
-/// is hot.
-const MODULES: [(&str, &str); 2] = [("solver", "3"), ("formats", "z")];
+/// The modules: name, which is that of the crate's feature, too, and optimisation level. The solvers
+/// are hot; level 3 is no quicker, and larger.
+const MODULES: [(&str, &str); 3] = [("solver", "2"), ("splines", "2"), ("formats", "z")];
 
 /// What every browser since 2022 and Node 18 have of WebAssembly; Rust's compiler uses no more.
 const FEATURES: [&str; 7] = [
@@ -45,6 +45,8 @@ pub(crate) fn build() -> Result<PathBuf, String> {
     for (name, level) in MODULES {
         module(name, level)?;
     }
+    let rows = source.join("js/wasm/catalogue.ts");
+    fs::write(&rows, catalogue()).map_err(|error| at(&rows, &error))?;
     run(npx("tsc").arg("--outDir").arg(&package))?;
     let wasm = package.join("wasm");
     fs::create_dir_all(&wasm).map_err(|error| at(&wasm, &error))?;
@@ -60,6 +62,17 @@ pub(crate) fn build() -> Result<PathBuf, String> {
     }
     println!("built {}", package.display());
     Ok(package)
+}
+
+/// The catalogue for scripts: known without any module.
+fn catalogue() -> String {
+    let list: serde_json::Value =
+        serde_json::from_str(&faircurve_format::catalogue_json::write()).unwrap_or_default();
+    format!(
+        "import type {{ SplineInfo }} from \"../catalogue.js\";\n\n\
+         export const rows: Omit<SplineInfo, \"continuity\">[] = {};\n",
+        list["splines"]
+    )
 }
 
 fn source() -> PathBuf {

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::process::ExitCode;
 
 use faircurve::catalog::{ENTRIES, ParamKind, ParamSpec, SplineInfo, suggest};
-use serde::Serialize;
+use faircurve_format::catalogue_json;
 
 use crate::args::ListArgs;
 use crate::failure::Failure;
@@ -14,7 +14,7 @@ use crate::output::to_stdout;
 pub(crate) fn run(args: &ListArgs) -> Result<ExitCode, Failure> {
     let text = match (args.format.as_str(), args.laws) {
         ("text", false) => as_text(),
-        ("json", false) => as_json()?,
+        ("json", false) => catalogue_json::write(),
         ("text", true) => laws::as_text()?,
         ("json", true) => laws::as_json()?,
         (other, _) => {
@@ -81,67 +81,4 @@ fn join_names(info: &SplineInfo) -> Vec<&'static str> {
 
 fn claim_names(info: &SplineInfo) -> Vec<String> {
     info.claims.iter().map(ToString::to_string).collect()
-}
-
-#[derive(Serialize)]
-struct List {
-    faircurve: u32,
-    splines: Vec<SplineEntry>,
-}
-
-#[derive(Serialize)]
-struct SplineEntry {
-    name: &'static str,
-    summary: &'static str,
-    source: &'static str,
-    params: Vec<ParamEntry>,
-    default_join: &'static str,
-    joins: Vec<&'static str>,
-    /// The default first.
-    ends: &'static [&'static str],
-    claims: Vec<String>,
-}
-
-#[derive(Serialize)]
-struct ParamEntry {
-    name: &'static str,
-    summary: &'static str,
-    #[serde(flatten)]
-    values: ValuesEntry,
-}
-
-#[derive(Serialize)]
-#[serde(tag = "kind", rename_all = "lowercase")]
-enum ValuesEntry {
-    Number { default: f64, min: f64, max: f64 },
-    Choice { default: &'static str, options: &'static [&'static str] },
-    Text { default: &'static str },
-}
-
-fn as_json() -> Result<String, Failure> {
-    let list = List { faircurve: 1, splines: ENTRIES.iter().map(|info| entry(info)).collect() };
-    let text = serde_json::to_string_pretty(&list).map_err(|e| Failure::new(e.to_string()))?;
-    Ok(text + "\n")
-}
-
-fn entry(info: &SplineInfo) -> SplineEntry {
-    let values = |kind: &ParamKind| match *kind {
-        ParamKind::Number { default, min, max } => ValuesEntry::Number { default, min, max },
-        ParamKind::Choice { options } => ValuesEntry::Choice { default: first(options), options },
-        ParamKind::Text { default } => ValuesEntry::Text { default },
-    };
-    SplineEntry {
-        name: info.name,
-        summary: info.summary,
-        source: info.source,
-        params: info
-            .params
-            .iter()
-            .map(|p| ParamEntry { name: p.name, summary: p.summary, values: values(&p.kind) })
-            .collect(),
-        default_join: info.default_join.name(),
-        joins: join_names(info),
-        ends: info.ends,
-        claims: claim_names(info),
-    }
 }

@@ -1,5 +1,6 @@
 //! The files that faircurve reads and writes: one module a format, all through one [`Document`].
 
+pub mod catalogue_json;
 pub mod csv;
 pub mod document;
 pub mod error;

@@ -5,6 +5,7 @@ import { createRequire } from "node:module";
 import { join } from "node:path";
 import { gzipSync } from "node:zlib";
 import { solve } from "faircurve";
+import "faircurve/splines";
 import { browserPath, withPage } from "../test/browser.js";
 import { drag } from "./drag.js";
 import { median, outline } from "./drawings.js";
@@ -24,9 +25,11 @@ function sizes() {
     const zipped = bytes.reduce((sum, b) => sum + gzipSync(b, { level: 9 }).length, 0);
     return `${(plain / 1000).toFixed(1).padStart(8)} ${(zipped / 1000).toFixed(1).padStart(8)}`;
   };
-  const scripts = readdirSync(installed).filter((name) => name.endsWith(".js") && name !== "formats.js");
+  const scripts = readdirSync(installed).filter((name) => name.endsWith(".js") && !["formats.js", "splines.js"].includes(name));
   console.log(`solver module   ${kB(["wasm/solver_bg.wasm"])}`);
-  console.log(`its JavaScript  ${kB([...scripts, "wasm/solver.js"])}`);
+  console.log(`its JavaScript  ${kB([...scripts, "wasm/catalogue.js", "wasm/solver.js"])}`);
+  console.log(`splines module  ${kB(["wasm/splines_bg.wasm"])}`);
+  console.log(`its JavaScript  ${kB(["splines.js", "wasm/splines.js"])}`);
   console.log(`formats module  ${kB(["wasm/formats_bg.wasm"])}`);
   console.log(`its JavaScript  ${kB(["formats.js", "wasm/formats.js"])}`);
 }

@@ -14,6 +14,7 @@ import type { Contour, Document, Glyph, Join } from "./document.js";
 import { knotRows, splineOf, wrongType } from "./knots.js";
 import { wasm } from "./solver.js";
 
+export { catalogue, type ParamSpec, type SplineInfo } from "./catalogue.js";
 export { Beziers, Conversion, type BezierOptions, type PathContext } from "./beziers.js";
 export {
   Curve,
@@ -55,7 +56,8 @@ export interface Solution {
 /**
  * Finds the curve of every contour: a function of the document alone.
  *
- * Throws a {@link FaircurveError} where something has no meaning. What can't be solved as asked is no error: the
+ * Throws a {@link FaircurveError} where something has no meaning, or where a spline's module isn't loaded: all but
+ * `spiro`, `euler` and `hobby` need `import "faircurve/splines"`. What can't be solved as asked is no error: the
  * curve's `status` is `relaxed` and it says what and why.
  */
 export function solve(document: Document, options: SolveOptions = {}): Solution {
@@ -89,45 +91,11 @@ function solveGlyph(glyph: Glyph, place: string, document: Document, effort: num
 function solveContour(contour: Contour, place: string, document: Document, effort: number): Curve {
   if (!Array.isArray(contour?.knots)) throw wrongType(`${place}\`knots\``, "a list", contour?.knots);
   return checked(() => {
-    const { name, built } = splineOf(contour, document);
+    const { name, built, solver } = splineOf(contour, document);
     const closed = contour.closed ?? false;
-    return new Curve(wasm.solve(built, knotRows(contour.knots, place), closed, effort), name, closed);
+    return new Curve(solver.solve(built, knotRows(contour.knots, place), closed, effort), name, closed);
   });
 }
-
-/** A parameter that a spline takes. */
-export type ParamSpec = {
-  name: string;
-  /** One line. */
-  summary: string;
-} & (
-  | { kind: "number"; default: number; min: number; max: number }
-  | { kind: "choice"; default: string; options: string[] }
-  | { kind: "text"; default: string }
-);
-
-/** A spline of the catalogue. */
-export interface SplineInfo {
-  name: string;
-  /** One line. */
-  summary: string;
-  /** Where it is defined. */
-  source: string;
-  params: ParamSpec[];
-  /** The join of a knot that names none. */
-  default_join: Join;
-  /** The joins that it has; others are adapted. */
-  joins: Join[];
-  /** What holds at free ends, the default first. */
-  ends: string[];
-  /** The properties that it claims. */
-  claims: string[];
-  /** The order of geometric continuity that it claims; 0 where it claims none. */
-  continuity: number;
-}
-
-/** Every spline with its parameters, in the order in which lists show them. */
-export const catalogue: readonly SplineInfo[] = wasm.catalogue() as SplineInfo[];
 
 /** The names of the joins. */
 export const joins: readonly Join[] = wasm.joins() as Join[];

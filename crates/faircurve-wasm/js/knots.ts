@@ -1,7 +1,7 @@
 // Knots as rows of numbers, for the solver.
 import { FaircurveError } from "./error.js";
 import type { Knot, SplineChoice } from "./document.js";
-import { wasm } from "./solver.js";
+import { type Solver, solverOf, wasm } from "./solver.js";
 
 const JOINS = wasm.joins() as string[];
 const KEYS = [
@@ -88,31 +88,39 @@ export function wrongType(what: string, expected: string, got: unknown): Faircur
   return new FaircurveError(`${what} must be ${expected}, not ${kind}`);
 }
 
-const built = new Map<string, wasm.Built>();
+/** A spline of a choice, and the module that has it. */
+interface BuiltSpline {
+  name: string;
+  built: wasm.Built;
+  solver: Solver;
+}
+
+const known = new Map<string, BuiltSpline>();
 
 /** The spline of a choice, built once for each. */
-export function splineOf(choice: SplineChoice, otherwise: SplineChoice = {}): { name: string; built: wasm.Built } {
+export function splineOf(choice: SplineChoice, otherwise: SplineChoice = {}): BuiltSpline {
   const name = choice.spline ?? otherwise.spline ?? "spiro";
   const params = choice.params ?? (choice.spline === undefined ? otherwise.params : undefined) ?? {};
   if (typeof name !== "string") throw wrongType("`spline`", "a string", name);
   if (typeof params !== "object") throw wrongType("`params`", "an object", params);
   const key = JSON.stringify([name, params]);
-  let spline = built.get(key);
+  let spline = known.get(key);
   if (spline === undefined) {
-    const wanted = new wasm.Choice();
+    const solver = solverOf(name);
+    const wanted = new solver.Choice();
     for (const [param, value] of Object.entries(params)) {
       if (typeof value === "number") wanted.number(param, value);
       else if (typeof value === "string") wanted.text(param, value);
       else throw wrongType(`parameter \`${param}\``, "a number or a string", value);
     }
-    spline = wanted.build(name);
+    spline = { name, built: wanted.build(name), solver };
     // A slider makes many; the oldest is forgotten.
-    if (built.size >= 256) {
-      const [oldest] = built.keys();
-      built.get(oldest!)!.free();
-      built.delete(oldest!);
+    if (known.size >= 256) {
+      const [oldest] = known.keys();
+      known.get(oldest!)!.built.free();
+      known.delete(oldest!);
     }
-    built.set(key, spline);
+    known.set(key, spline);
   }
-  return { name, built: spline };
+  return spline;
 }

@@ -3,12 +3,20 @@ import { Curve } from "./curve.js";
 import { checked, FaircurveError } from "./error.js";
 import type { Contour, Knot, SplineChoice } from "./document.js";
 import { knotRow, knotRows, splineOf } from "./knots.js";
-import { wasm } from "./solver.js";
+import { type Solver, solverOf, type wasm } from "./solver.js";
+
+type NamedChoice = SplineChoice & { spline: string };
 
 /** A moment of a {@link LiveContour}, to come back to. Cheap: it shares what doesn't change. */
 export class Snapshot {
   /** @internal */
-  readonly state: { live: wasm.Live; knots: readonly Knot[]; closed: boolean; choice: SplineChoice; name: string };
+  readonly state: {
+    live: wasm.Live;
+    solver: Solver;
+    knots: readonly Knot[];
+    closed: boolean;
+    choice: NamedChoice;
+  };
 
   /** @internal */
   constructor(state: Snapshot["state"]) {
@@ -25,21 +33,22 @@ export class Snapshot {
  */
 export class LiveContour {
   #live: wasm.Live;
+  /** The module of `#live`; that of the spline is another when the spline was changed and not yet solved for. */
+  #solver: Solver;
   #knots: Knot[];
   #closed: boolean;
-  #choice: SplineChoice;
-  #name: string;
+  #choice: NamedChoice;
   #curve: Curve | undefined;
   #stale = false;
 
   /** The contour with its canonical curve. */
   constructor(contour: Contour) {
-    const { name, built } = checked(() => splineOf(contour));
+    const { name, built, solver } = checked(() => splineOf(contour));
     this.#knots = contour.knots.map((knot) => ({ ...knot }));
     this.#closed = contour.closed ?? false;
     this.#choice = { spline: name, params: contour.params };
-    this.#name = name;
-    this.#live = checked(() => new wasm.Live(built, knotRows(contour.knots), this.#closed));
+    this.#solver = solver;
+    this.#live = checked(() => new solver.Live(built, knotRows(contour.knots), this.#closed));
   }
 
   /** The knots with every edit. */
@@ -107,10 +116,9 @@ export class LiveContour {
 
   /** Changes the spline; the next curve is its canonical one. */
   setSpline(choice: SplineChoice): void {
-    const { name, built } = checked(() => splineOf(choice));
+    const { name, built, solver } = checked(() => splineOf(choice));
     this.#choice = { spline: name, params: choice.params };
-    this.#name = name;
-    this.#live.set_spline(built);
+    if (solver === this.#solver) this.#live.set_spline(built);
     this.#stale = true;
   }
 
@@ -122,7 +130,7 @@ export class LiveContour {
    */
   get curve(): Curve {
     this.solve();
-    return (this.#curve ??= new Curve(this.#live.solved(), this.#name, this.#closed));
+    return (this.#curve ??= new Curve(this.#live.solved(), this.#choice.spline, this.#closed));
   }
 
   /**
@@ -131,14 +139,12 @@ export class LiveContour {
    */
   solve(effort = NaN): void {
     if (!this.#stale) return;
-    checked(() => this.#live.solve(effort));
-    this.#renewed();
+    this.#renew((live) => live.solve(effort));
   }
 
   /** Gives up the branch for the canonical curve: when the hand lets go. */
   settle(): void {
-    checked(() => this.#live.settle());
-    this.#renewed();
+    this.#renew((live) => live.settle());
   }
 
   /** The curve as Béziers; the cost is that of what has moved since they were last asked for with this accuracy. */
@@ -151,10 +157,10 @@ export class LiveContour {
   snapshot(): Snapshot {
     return new Snapshot({
       live: this.#live.snapshot(),
+      solver: this.#solver,
       knots: this.#knots.slice(),
       closed: this.#closed,
       choice: this.#choice,
-      name: this.#name,
     });
   }
 
@@ -162,10 +168,10 @@ export class LiveContour {
   restore({ state }: Snapshot): void {
     this.#live.free();
     this.#live = state.live.snapshot();
+    this.#solver = state.solver;
     this.#knots = state.knots.slice();
     this.#closed = state.closed;
     this.#choice = state.choice;
-    this.#name = state.name;
     // Whether the curve was up to date is not known; solving again from itself costs little.
     this.#renewed();
     this.#stale = true;
@@ -174,6 +180,19 @@ export class LiveContour {
   /** Gives its memory back now, not when the collector comes by. It can't be used any more. */
   free(): void {
     this.#live.free();
+  }
+
+  /** Solves with what there is; from anew where the spline is another module's. */
+  #renew(solve: (live: wasm.Live) => void): void {
+    const solver = solverOf(this.#choice.spline);
+    if (solver === this.#solver) {
+      checked(() => solve(this.#live));
+    } else {
+      const live = checked(() => new solver.Live(splineOf(this.#choice).built, knotRows(this.#knots), this.#closed));
+      this.#live.free();
+      [this.#live, this.#solver] = [live, solver];
+    }
+    this.#renewed();
   }
 
   #renewed(): void {

@@ -1,8 +1,8 @@
-//! The solver module: curves from knots, and what they answer.
+//! The solver modules: curves from knots, and what they answer.
 
 use std::sync::Arc;
 
-use faircurve::catalog::{self, CatalogError, ENTRIES, ParamKind, ParamSpec, ParamValue, Params};
+use faircurve::catalog::{self, CatalogError, ParamValue, Params, SplineInfo};
 use faircurve::convert::{self, Cuts, Fit, Metric, Options};
 use faircurve::kurbo::{BezPath, PathEl, Point, Vec2};
 use faircurve::measure::fairness::{Fairness, Jump, jumps};
@@ -16,6 +16,15 @@ use wasm_bindgen::prelude::*;
 /// Numbers a knot crosses as: x, y, join, `tangent_in`, `tangent_out`, `curvature_in`,
 /// `curvature_out`, `tension_in`, `tension_out`, `curl`. NaN stands for what isn't given.
 const KNOT: usize = 12;
+
+/// The splines of this module: some, so that it is small, or all.
+#[cfg(not(feature = "splines"))]
+const SPLINES: &[&SplineInfo] = {
+    use faircurve::families::{euler, hobby, spiro};
+    &[&spiro::INFO, &euler::INFO, &hobby::INFO]
+};
+#[cfg(feature = "splines")]
+const SPLINES: &[&SplineInfo] = catalog::ENTRIES;
 
 type Result<T> = std::result::Result<T, JsValue>;
 
@@ -55,44 +64,10 @@ pub fn joins() -> JsValue {
     list(Join::ALL.map(Join::name))
 }
 
-/// The catalogue: its rows as objects.
+/// The names of the splines of this module.
 #[wasm_bindgen]
-pub fn catalogue() -> JsValue {
-    list(ENTRIES.iter().map(|info| {
-        object([
-            ("name", info.name.into()),
-            ("summary", info.summary.into()),
-            ("source", info.source.into()),
-            ("params", list(info.params.iter().map(param))),
-            ("default_join", info.default_join.name().into()),
-            ("joins", list(info.joins.iter().map(|join| join.name()))),
-            ("ends", list(info.ends.iter().copied())),
-            ("claims", list(info.claims.iter().map(|claim| claim.to_string()))),
-            ("continuity", info.continuity().into()),
-        ])
-    }))
-}
-
-fn param(spec: &ParamSpec) -> JsValue {
-    let entry = object([("name", spec.name.into()), ("summary", spec.summary.into())]);
-    match spec.kind {
-        ParamKind::Number { default, min, max } => {
-            set(&entry, "kind", "number".into());
-            set(&entry, "default", default.into());
-            set(&entry, "min", min.into());
-            set(&entry, "max", max.into());
-        }
-        ParamKind::Choice { options } => {
-            set(&entry, "kind", "choice".into());
-            set(&entry, "default", options.first().copied().into());
-            set(&entry, "options", list(options.iter().copied()));
-        }
-        ParamKind::Text { default } => {
-            set(&entry, "kind", "text".into());
-            set(&entry, "default", default.into());
-        }
-    }
-    entry
+pub fn splines() -> JsValue {
+    list(SPLINES.iter().map(|info| info.name))
 }
 
 /// Words that name the candidates nearest to what was asked.
@@ -128,7 +103,8 @@ impl Choice {
 
     /// The spline of that name with these parameters.
     pub fn build(self, name: &str) -> Result<Built> {
-        let spline = catalog::build(name, &self.params).map_err(|e| catalog_error(&e))?;
+        let spline = catalog::build_among(SPLINES, name, &self.params);
+        let spline = spline.map_err(|e| catalog_error(&e))?;
         Ok(Built { spline: Arc::from(spline) })
     }
 }

@@ -32,12 +32,19 @@ test("solving, Path2D, and the formats only when they are asked for", { skip }, 
       };
     }, address);
     assert.deepEqual(result, { inside: true, outside: false, longer: true, error: "did you mean `spiro`?" });
-    assert.ok(loaded.some((url) => url.endsWith("solver_bg.wasm")) && !loaded.some((url) => url.includes("formats")));
+    assert.ok(loaded.some((url) => url.endsWith("solver_bg.wasm")) && !loaded.some((url) => /formats|splines/.test(url)));
     const csv = await page.evaluate(async (at) => {
       const { read, write } = await import(`${at}/node_modules/faircurve/formats.js`);
       return write(read("0,0\n10,5\n", "csv"), "csv");
     }, address);
     assert.match(csv, /0,0/);
+    const vertices = await page.evaluate(async (at) => {
+      const { solve } = await import(`${at}/node_modules/faircurve/index.js`);
+      await import(`${at}/node_modules/faircurve/splines.js`);
+      const knots = [{ x: 20, y: 50 }, { x: 80, y: 20 }, { x: 130, y: 70 }];
+      return solve({ spline: "kappa", contours: [{ closed: true, knots }] }).contours[0].status;
+    }, address);
+    assert.equal(vertices, "solved");
     assert.deepEqual(errors, []);
   }));
 

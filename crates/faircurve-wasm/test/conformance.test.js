@@ -4,6 +4,7 @@ import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { solve } from "faircurve";
+import "faircurve/splines";
 import { solution } from "faircurve/formats";
 
 const folder = join(process.env.FAIRCURVE_ROOT, "conformance/cases");

@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { area, curveLinearClosed, curveLinear, line, lineRadial } from "d3-shape";
 import { curveFair, curveFairClosed } from "faircurve/d3";
+import "faircurve/splines";
 
 const points = [[0, 0], [50, 40], [90, 10], [150, 60]];
 const shape = (path) => path?.replace(/[-\d.e,]+/g, "#") ?? null;

@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { catalogue, Conversion, FaircurveError, joins, LiveContour, solve } from "faircurve";
+import "faircurve/splines";
 
 const circle = (n, r = 100) =>
   Array.from({ length: n }, (_, i) => ({ x: r * Math.cos((2 * Math.PI * i) / n), y: r * Math.sin((2 * Math.PI * i) / n) }));

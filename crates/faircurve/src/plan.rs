@@ -6,6 +6,7 @@
 //! start and direction become canonical, so that the result can't depend on them.
 //! [`Plan::assemble`] puts the solved runs back together in the input's numbering.
 
+use crate::numeric::order::sort_by;
 use std::fmt;
 
 use kurbo::{Point, Vec2};
@@ -486,11 +487,12 @@ impl Plan {
             report.stage = report.stage.max(solution.stage);
         }
         // Joins before what is given. Both runs at a knot may say the same of it.
-        report.relaxed.sort_by_key(|r| {
+        let order = |r: &Relaxation| {
             (r.place, Join::from_name(r.asked).is_none(), r.asked, Join::from_name(r.got))
-        });
+        };
+        sort_by(&mut report.relaxed, |a, b| order(a).cmp(&order(b)));
         report.relaxed.dedup_by_key(|r| (r.place, r.asked));
-        report.adapted.sort_by_key(|adaptation| adaptation.place);
+        sort_by(&mut report.adapted, |a, b| a.place.cmp(&b.place));
         let placed = self.place_segments(&shapes);
         let knots = self.solved_knots(&placed, &report);
         let curve = if placed.is_empty() && self.points.len() == 1 {
@@ -562,7 +564,7 @@ impl Plan {
                 knots.push((index, SolvedKnot { point: self.points[index], ..solved }));
             }
         }
-        knots.sort_by_key(|(index, _)| *index);
+        sort_by(&mut knots, |a, b| a.0.cmp(&b.0));
         knots.into_iter().map(|(_, knot)| knot).collect()
     }
 }

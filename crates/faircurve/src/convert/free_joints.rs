@@ -12,6 +12,7 @@ use super::cuts::{farthest, greedy, predict, shortest};
 use super::fitter::{Cubic, Fitter};
 use super::piece::Shift;
 use super::tuning::{BEHIND, LARGEST_OFFSET, MOST_TURN, SLOPE};
+use crate::numeric::order::sort_by;
 
 /// How a joint may stand to the curve.
 #[derive(Clone, Copy, Debug)]
@@ -88,7 +89,7 @@ fn starts(step: &Step, plain: &[Cubic]) -> Vec<Start> {
             Some(Start { stand, place: cubic.to, shift: cubic.shifts[1] })
         })
         .collect();
-    starts.sort_by(|a, b| b.place.total_cmp(&a.place));
+    sort_by(&mut starts, |a, b| b.place.total_cmp(&a.place));
     if let Some(first) = starts.first().copied() {
         let behind = BEHIND * length_near(plain, first.place);
         starts.retain(|start| start.place >= first.place - behind);

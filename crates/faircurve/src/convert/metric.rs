@@ -1,5 +1,6 @@
 //! The metrics of thesis section 9.2 that compare directions.
 
+use crate::numeric::order::sort_by;
 use std::sync::LazyLock;
 
 use kurbo::common::GAUSS_LEGENDRE_COEFFS_16;
@@ -23,7 +24,7 @@ struct Rule {
 static RULE: LazyLock<Rule> = LazyLock::new(|| {
     let mut pairs: Vec<(f64, f64)> =
         GAUSS_LEGENDRE_COEFFS_16.iter().map(|(w, x)| (0.5 + 0.5 * x, w / 2.0)).collect();
-    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by(&mut pairs, |a, b| a.0.total_cmp(&b.0));
     let nodes: [f64; NODES] = std::array::from_fn(|i| pairs[i].0);
     let weights: [f64; NODES] = std::array::from_fn(|i| pairs[i].1);
     // Lagrange's polynomials are of degree 15, which the rule itself integrates exactly.

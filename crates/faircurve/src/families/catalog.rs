@@ -2,6 +2,7 @@
 //!
 //! Adding a family touches its own folder and one line of [`ENTRIES`].
 
+use crate::numeric::order::sort_by;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -253,6 +254,8 @@ pub enum CatalogError {
     UnknownSpline {
         /// The name asked for.
         asked: String,
+        /// The names that there are.
+        known: Vec<&'static str>,
     },
     /// The spline has no parameter of that name.
     UnknownParam {
@@ -260,6 +263,8 @@ pub enum CatalogError {
         spline: &'static str,
         /// The name asked for.
         asked: String,
+        /// The names of those that it takes.
+        known: Vec<&'static str>,
     },
     /// The parameter doesn't take that value.
     BadValue {
@@ -290,8 +295,8 @@ pub enum CatalogError {
 impl fmt::Display for CatalogError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            CatalogError::UnknownSpline { asked } => write!(f, "there is no spline `{asked}`"),
-            CatalogError::UnknownParam { spline, asked } => {
+            CatalogError::UnknownSpline { asked, .. } => write!(f, "there is no spline `{asked}`"),
+            CatalogError::UnknownParam { spline, asked, .. } => {
                 write!(f, "spline `{spline}` has no parameter `{asked}`")
             }
             CatalogError::BadValue { spline, param, value, .. } => {
@@ -310,17 +315,12 @@ impl CatalogError {
     /// What to do about it.
     pub fn hint(&self) -> String {
         match self {
-            CatalogError::UnknownSpline { asked } => {
-                suggest(asked, ENTRIES.iter().map(|info| info.name))
+            CatalogError::UnknownParam { spline, known, .. } if known.is_empty() => {
+                format!("`{spline}` takes no parameters; leave it out")
             }
-            CatalogError::UnknownParam { spline, asked } => {
-                let info = ENTRIES.iter().find(|info| info.name == *spline);
-                let params = info.map_or(&[][..], |info| info.params);
-                if params.is_empty() {
-                    format!("`{spline}` takes no parameters; leave it out")
-                } else {
-                    suggest(asked, params.iter().map(|param| param.name))
-                }
+            CatalogError::UnknownSpline { asked, known }
+            | CatalogError::UnknownParam { asked, known, .. } => {
+                suggest(asked, known.iter().copied())
             }
             CatalogError::BadValue { expected, .. } | CatalogError::BadText { expected, .. } => {
                 format!("it takes {expected}")
@@ -334,11 +334,7 @@ impl CatalogError {
 /// # Errors
 /// [`CatalogError::UnknownSpline`].
 pub fn find(name: &str) -> Result<&'static SplineInfo, CatalogError> {
-    ENTRIES
-        .iter()
-        .copied()
-        .find(|info| info.name == name)
-        .ok_or_else(|| CatalogError::UnknownSpline { asked: name.to_owned() })
+    find_among(ENTRIES, name)
 }
 
 /// The spline of that name with every default.
@@ -354,10 +350,26 @@ pub fn spline(name: &str) -> Result<Box<dyn Spline>, CatalogError> {
 /// # Errors
 /// [`CatalogError`] if the name, a parameter's name or its value isn't one that the catalogue has.
 pub fn build(name: &str, params: &Params) -> Result<Box<dyn Spline>, CatalogError> {
-    let info = find(name)?;
+    build_among(ENTRIES, name, params)
+}
+
+/// The same from some rows alone: a program that never names [`ENTRIES`] holds no other splines.
+///
+/// # Errors
+/// As for [`build`].
+pub fn build_among(
+    rows: &[&'static SplineInfo],
+    name: &str,
+    params: &Params,
+) -> Result<Box<dyn Spline>, CatalogError> {
+    let info = find_among(rows, name)?;
     for (asked, value) in params.iter() {
         let spec = info.params.iter().find(|spec| spec.name == asked).ok_or_else(|| {
-            CatalogError::UnknownParam { spline: info.name, asked: asked.to_owned() }
+            CatalogError::UnknownParam {
+                spline: info.name,
+                asked: asked.to_owned(),
+                known: info.params.iter().map(|spec| spec.name).collect(),
+            }
         })?;
         spec.check(value).map_err(|expected| CatalogError::BadValue {
             spline: info.name,
@@ -367,6 +379,16 @@ pub fn build(name: &str, params: &Params) -> Result<Box<dyn Spline>, CatalogErro
         })?;
     }
     (info.build)(params)
+}
+
+fn find_among(
+    rows: &[&'static SplineInfo],
+    name: &str,
+) -> Result<&'static SplineInfo, CatalogError> {
+    rows.iter().copied().find(|info| info.name == name).ok_or_else(|| {
+        let known = rows.iter().map(|info| info.name).collect();
+        CatalogError::UnknownSpline { asked: name.to_owned(), known }
+    })
 }
 
 impl ParamSpec {
@@ -399,21 +421,25 @@ impl ParamSpec {
 /// assert_eq!(suggest("xyz", ["spiro", "euler"]), "use one of `spiro`, `euler`");
 /// ```
 pub fn suggest<'a>(asked: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
+    suggest_among(asked, &candidates.into_iter().collect::<Vec<_>>())
+}
+
+fn suggest_among(asked: &str, candidates: &[&str]) -> String {
     // Below 0.7 Jaro–Winkler calls unrelated words alike.
     const ALIKE: f64 = 0.75;
-    let candidates: Vec<&str> = candidates.into_iter().collect();
-    let asked_lower = asked.to_lowercase();
-    let likeness = |candidate: &str| strsim::jaro_winkler(&asked_lower, &candidate.to_lowercase());
+    let asked_lower = asked.to_ascii_lowercase();
+    let likeness =
+        |candidate: &str| strsim::jaro_winkler(&asked_lower, &candidate.to_ascii_lowercase());
     let mut near: Vec<(f64, &str)> = candidates
         .iter()
         .map(|candidate| (likeness(candidate), *candidate))
         .filter(|(likeness, _)| *likeness > ALIKE)
         .collect();
-    near.sort_by(|a, b| b.0.total_cmp(&a.0));
+    sort_by(&mut near, |a, b| b.0.total_cmp(&a.0));
     near.truncate(3);
     match near.as_slice() {
         [] if candidates.is_empty() => "leave it out".to_owned(),
-        [] => format!("use {}", one_of(candidates)),
+        [] => format!("use {}", one_of(candidates.iter().copied())),
         [only] => format!("did you mean `{}`?", only.1),
         several => format!("did you mean {}?", one_of(several.iter().map(|(_, name)| *name))),
     }

@@ -1,6 +1,7 @@
 //! What happens to a run that can't be solved as asked: as little as possible is weakened, and every
 //! place is named with its reason.
 
+use crate::numeric::order::sort_by;
 use std::ops::RangeInclusive;
 
 use super::budget::Budget;
@@ -145,7 +146,7 @@ impl ConstraintSpline<'_> {
         budget: &mut Budget,
     ) -> (Solved, Run) {
         let mut weakened = weakened(run, &weaker);
-        weakened.sort_by(|&a, &b| strain(run, a).total_cmp(&strain(run, b)));
+        sort_by(&mut weakened, |&a, &b| strain(run, a).total_cmp(&strain(run, b)));
         for i in weakened {
             if budget.is_spent() {
                 break;
@@ -177,7 +178,7 @@ fn weakenable(run: &Run, solved: &Solved, join: Join) -> Vec<usize> {
             is_stronger || knot.curvature.is_some()
         })
         .collect();
-    knots.sort_by(|&a, &b| {
+    sort_by(&mut knots, |&a, &b| {
         is_good(a).cmp(&is_good(b)).then(strain(run, b).total_cmp(&strain(run, a)))
     });
     knots

@@ -5,6 +5,7 @@
 //! fractions of the drawing's size. What is measured on samples is a witness *against* a law when it
 //! is large, never a proof of one when it is small.
 
+use crate::numeric::order::sort_by;
 use std::f64::consts::TAU;
 
 use kurbo::{Affine, Point, Vec2};
@@ -619,7 +620,7 @@ pub fn spread_about_one_curve(solutions: &[Solution]) -> Option<f64> {
             }
         }
     }
-    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by(&mut places, |a, b| a.0.total_cmp(&b.0));
     let mut errors: Vec<f64> = (0..places.len())
         .filter_map(|i| {
             let (u, v, own) = places[i];

@@ -11,6 +11,7 @@ pub mod elliptic;
 pub mod fresnel;
 pub(crate) mod gauss_legendre;
 pub mod newton;
+pub(crate) mod order;
 pub(crate) mod quadrature;
 pub mod roots;
 pub(crate) mod series;

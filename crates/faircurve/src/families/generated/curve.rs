@@ -1,5 +1,6 @@
 //! Cuts of a generating curve that is only known as a function κ(s).
 
+use crate::numeric::order::sort_by;
 use std::cell::Cell;
 use std::f64::consts::PI;
 use std::fmt;
@@ -240,7 +241,7 @@ impl Generated {
             *s *= flips[1];
             *curvature *= sign;
         }
-        samples.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by(&mut samples, |a, b| a.0.total_cmp(&b.0));
         let mut kappa = Kappa {
             source,
             flips,
@@ -326,7 +327,7 @@ struct Collocation {
 
 static COLLOCATION: LazyLock<Collocation> = LazyLock::new(|| {
     let mut rule: Vec<(f64, f64)> = nodes_16().collect();
-    rule.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by(&mut rule, |a, b| a.0.total_cmp(&b.0));
     let nodes: [f64; 16] = std::array::from_fn(|i| rule[i].0 + 0.5);
     let weights: [f64; 16] = std::array::from_fn(|i| rule[i].1);
     let legendre = |x: f64| {

@@ -1,6 +1,7 @@
 //! Yan et al.'s formulation: one parabola a knot, with its vertex there; neighbours meet with the same
 //! tangent and, up to sign, the same curvature.
 
+use crate::numeric::order::sort_by;
 use std::sync::Arc;
 
 use kurbo::{PathSeg, Point, QuadBez, Vec2};
@@ -99,7 +100,7 @@ impl Parabolas {
         let n = self.middle.len();
         let mut worst: Vec<usize> =
             (0..n).filter(|&i| !is_end(run, i) && !self.given_up[i]).collect();
-        worst.sort_by(|&i, &j| self.mismatch[j].total_cmp(&self.mismatch[i]));
+        sort_by(&mut worst, |&i, &j| self.mismatch[j].total_cmp(&self.mismatch[i]));
         for i in worst.into_iter().take(count) {
             (self.given_up[i], self.vertex[i]) = (true, between_chords(run, i));
         }

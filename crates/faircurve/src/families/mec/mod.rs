@@ -5,6 +5,7 @@ mod forces;
 mod segment;
 mod solutions;
 
+use crate::numeric::order::sort_by;
 use kurbo::Point;
 
 use super::catalog::{Claim, ParamKind, ParamSpec, Params, SplineInfo};
@@ -161,7 +162,7 @@ impl Elasticas {
             theta0.hypot(theta1)
         };
         let mut widest: Vec<usize> = (0..tangents.ends.len()).collect();
-        widest.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        sort_by(&mut widest, |a, b| size(b).total_cmp(&size(a)));
         let reaches =
             widest.iter().take(CLOSELY).map(|&i| (segment::reach(tangents.ends[i].angles), i));
         let worst = reaches.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |(_, i)| i);

@@ -4,6 +4,7 @@
 use super::segment::{Asked, Fit, Last, MecSegment, fit, newton};
 use crate::frame::ChordAngles;
 use crate::numeric::elastica::Elastica;
+use crate::numeric::order::sort_by;
 
 /// The elastica with these end tangents and this arc length, above 1, on the unit chord: the one
 /// that continues the curve of least energy times length, bent or pulled to its length.
@@ -101,7 +102,7 @@ fn search(
             }
         }
     }
-    found.sort_by(|a, b| energy(a).total_cmp(&energy(b)));
+    sort_by(&mut found, |a, b| energy(a).total_cmp(&energy(b)));
     found
 }
 

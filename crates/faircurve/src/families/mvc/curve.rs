@@ -4,6 +4,7 @@
 //! middle, α = κ‴ and β = ½κ′² − κκ″ − C there. Series are written for numbers of any kind, so that
 //! they also say how everything answers changes of the parameters.
 
+use crate::numeric::order::sort_by;
 use kurbo::PathSeg;
 use num_complex::Complex64;
 
@@ -189,7 +190,7 @@ impl MvcCurve {
                 panel = Panel::new(panel.at(sign * reach), force);
             }
         }
-        panels.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by(&mut panels, |a, b| a.0.total_cmp(&b.0));
         let mut curve = MvcCurve { panels, force, start: Complex64::ZERO, chord: Complex64::ONE };
         let [start, end] = [-0.5, 0.5].map(|s| {
             let place = curve.place(s);

@@ -8,6 +8,7 @@
 //! difference of the end angles: T ≈ S/6c, D ≈ F/8c. The angles are known up to full turns, so that
 //! only the few windings near that point need trying.
 
+use crate::numeric::order::sort_by;
 use std::f64::consts::TAU;
 
 use num_complex::Complex64;
@@ -51,7 +52,7 @@ pub(super) fn between_ends(ends: [f64; 4]) -> Vec<[f64; 4]> {
             }
         }
     }
-    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    sort_by(&mut found, |a, b| b.0.total_cmp(&a.0));
     found.into_iter().map(|(_, k)| k).collect()
 }
 

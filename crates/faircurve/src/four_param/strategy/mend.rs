@@ -1,5 +1,6 @@
 //! Mending: bad stretches are restarted alone, with their rim held.
 
+use crate::numeric::order::sort_by;
 use std::ops::Range;
 
 use super::{Badness, REACH, Rescue, UNSETTLED, is_unsettled, turn_round};
@@ -60,7 +61,7 @@ impl Rescue {
                 .map(|segment| (system.bend(segment), segment))
                 .filter(|&(bend, _)| bend > BENT)
                 .collect();
-            bent.sort_by(|a, b| b.0.total_cmp(&a.0));
+            sort_by(&mut bent, |a, b| b.0.total_cmp(&a.0));
             if bent.is_empty() || self.budget.is_spent() {
                 return;
             }
