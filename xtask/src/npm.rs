@@ -47,11 +47,11 @@ pub(crate) fn build() -> Result<PathBuf, String> {
     }
     let rows = source.join("js/wasm/catalogue.ts");
     fs::write(&rows, catalogue()).map_err(|error| at(&rows, &error))?;
-    run(npx("tsc").arg("--outDir").arg(&package))?;
+    scripts(&package)?;
     let wasm = package.join("wasm");
     fs::create_dir_all(&wasm).map_err(|error| at(&wasm, &error))?;
     for (name, _) in MODULES {
-        for file in [format!("{name}.js"), format!("{name}.d.ts"), format!("{name}_bg.wasm")] {
+        for file in [format!("{name}.d.ts"), format!("{name}_bg.wasm")] {
             copy(&source.join("js/wasm").join(&file), &wasm.join(&file))?;
         }
     }
@@ -77,6 +77,21 @@ fn catalogue() -> String {
 
 fn source() -> PathBuf {
     root().join("crates/faircurve-wasm")
+}
+
+/// The package's scripts, each in one file, since a browser asks for what a file imports only once it
+/// has read it; and their types.
+fn scripts(package: &Path) -> Result<(), String> {
+    run(npx("tsc").arg("--outDir").arg(package))?;
+    let bundle = |entries: &[&str]| {
+        let mut esbuild = npx("esbuild");
+        esbuild.args(entries.iter().map(|entry| format!("js/{entry}.ts")));
+        esbuild.args(["--bundle", "--minify", "--format=esm", "--target=es2022"]);
+        esbuild.args(["--external:node:*", "--external:./index.js", "--log-level=warning"]);
+        run(esbuild.arg(format!("--outdir={}", package.display())))
+    };
+    bundle(&["index", "formats"])?;
+    bundle(&["d3", "spiro", "splines"])
 }
 
 /// Runs one of the package's npm scripts on the package as npm packs it.

@@ -1,6 +1,6 @@
 // Sizes, starts, times and a drag. Times are those of this machine and of the moment: run it when nothing else does.
 import { execFileSync } from "node:child_process";
-import { readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { gzipSync } from "node:zlib";
@@ -25,13 +25,12 @@ function sizes() {
     const zipped = bytes.reduce((sum, b) => sum + gzipSync(b, { level: 9 }).length, 0);
     return `${(plain / 1000).toFixed(1).padStart(8)} ${(zipped / 1000).toFixed(1).padStart(8)}`;
   };
-  const scripts = readdirSync(installed).filter((name) => name.endsWith(".js") && !["formats.js", "splines.js"].includes(name));
   console.log(`solver module   ${kB(["wasm/solver_bg.wasm"])}`);
-  console.log(`its JavaScript  ${kB([...scripts, "wasm/catalogue.js", "wasm/solver.js"])}`);
+  console.log(`its JavaScript  ${kB(["index.js"])}`);
   console.log(`splines module  ${kB(["wasm/splines_bg.wasm"])}`);
-  console.log(`its JavaScript  ${kB(["splines.js", "wasm/splines.js"])}`);
+  console.log(`its JavaScript  ${kB(["splines.js"])}`);
   console.log(`formats module  ${kB(["wasm/formats_bg.wasm"])}`);
-  console.log(`its JavaScript  ${kB(["formats.js", "wasm/formats.js"])}`);
+  console.log(`its JavaScript  ${kB(["formats.js"])}`);
 }
 
 /** µs of one call, the middle of many. */

@@ -5,6 +5,11 @@ export class FaircurveError extends Error {
   /** Where in the file, for errors of readers. */
   readonly location: Location | undefined;
 
+  /** Any error of that name: each of the package's scripts has its own copy of this class. */
+  static override [Symbol.hasInstance](error: unknown): boolean {
+    return error instanceof Error && error.name === "FaircurveError";
+  }
+
   constructor(message: string, hint = "", location?: Location) {
     super(message);
     this.name = "FaircurveError";

@@ -7,12 +7,12 @@
  * ```
  * @module
  */
-import init, * as wasm from "./wasm/formats.js";
-import { bytesOf } from "./bytes.js";
+import * as wasm from "./wasm/formats.js";
+import { start } from "./start.js";
 import { checked } from "./error.js";
 import type { Document } from "./document.js";
 
-await init({ module_or_path: bytesOf(new URL("./wasm/formats_bg.wasm", import.meta.url)) });
+await start(wasm, new URL("./wasm/formats_bg.wasm", import.meta.url));
 
 /** A format of documents. */
 export interface Format {

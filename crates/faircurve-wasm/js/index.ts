@@ -29,6 +29,8 @@ export {
 export type { Contour, Document, Glyph, Join, Knot, Params, SplineChoice, Vector } from "./document.js";
 export { FaircurveError, type Location } from "./error.js";
 export { LiveContour, Snapshot } from "./live.js";
+/** @internal */
+export { add } from "./solver.js";
 
 /** How to solve. */
 export interface SolveOptions {

@@ -1,11 +1,11 @@
 // The modules of WebAssembly that solve: the first, started when the package is loaded, and that of all splines,
 // once `splines.ts` is imported.
-import init, * as wasm from "./wasm/solver.js";
-import { bytesOf } from "./bytes.js";
+import * as wasm from "./wasm/solver.js";
+import { start } from "./start.js";
 import { catalogue } from "./catalogue.js";
 import { FaircurveError } from "./error.js";
 
-await init({ module_or_path: bytesOf(new URL("./wasm/solver_bg.wasm", import.meta.url)) });
+await start(wasm, new URL("./wasm/solver_bg.wasm", import.meta.url));
 
 /** What each of them does. */
 export type Solver = Pick<typeof wasm, "Choice" | "Live" | "solve">;

@@ -7,9 +7,9 @@
  * ```
  * @module
  */
-import init, * as wasm from "./wasm/splines.js";
-import { bytesOf } from "./bytes.js";
-import { add } from "./solver.js";
+import * as wasm from "./wasm/splines.js";
+import { start } from "./start.js";
+import { add } from "./index.js";
 
-await init({ module_or_path: bytesOf(new URL("./wasm/splines_bg.wasm", import.meta.url)) });
+await start(wasm, new URL("./wasm/splines_bg.wasm", import.meta.url));
 add(wasm);
