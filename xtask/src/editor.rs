@@ -54,10 +54,11 @@ fn preload(site: &Path) -> Result<(), String> {
         modules(site, folder, &mut links)?;
     }
     links.sort();
-    links.push(
-        "<link rel=\"preload\" href=\"faircurve/wasm/solver_bg.wasm\" as=\"fetch\" crossorigin>"
-            .to_owned(),
-    );
+    for module in ["solver", "splines"] {
+        links.push(format!(
+            "<link rel=\"preload\" href=\"faircurve/wasm/{module}_bg.wasm\" as=\"fetch\" crossorigin>"
+        ));
+    }
     let index = site.join("index.html");
     let page = fs::read_to_string(&index).map_err(|error| at(&index, &error))?;
     let whole = page.replace(MARK, &links.join("\n    "));

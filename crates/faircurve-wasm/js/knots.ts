@@ -4,10 +4,11 @@ import type { Knot, SplineChoice } from "./document.js";
 import { type Solver, solverOf, wasm } from "./solver.js";
 
 const JOINS = wasm.joins() as string[];
-const KEYS = [
-  "x", "y", "join", "tangent", "tangent_in", "tangent_out",
-  "curvature_in", "curvature_out", "tension_in", "tension_out", "curl",
-];
+/** What a knot may have, and where in a row it goes; `tangent` stands for those of both sides. */
+const KEYS = new Map([
+  ["x", 0], ["y", 1], ["join", 2], ["tangent", 3], ["tangent_in", 3], ["tangent_out", 5],
+  ["curvature_in", 7], ["curvature_out", 8], ["tension_in", 9], ["tension_out", 10], ["curl", 11],
+]);
 /** Numbers in a row. */
 const ROW = 12;
 
@@ -18,42 +19,53 @@ export function joinName(code: number): string {
 
 /** The rows of all knots. `place` starts messages: `contour 2, `. */
 export function knotRows(knots: readonly Knot[], place = ""): Float64Array {
-  const rows = new Float64Array(ROW * knots.length);
+  const rows = new Float64Array(ROW * knots.length).fill(NaN);
   knots.forEach((knot, index) => writeRow(rows, ROW * index, knot, `${place}knot ${index}: `));
   return rows;
 }
 
 /** The row of one knot. */
 export function knotRow(knot: Knot): Float64Array {
-  const row = new Float64Array(ROW);
+  const row = new Float64Array(ROW).fill(NaN);
   writeRow(row, 0, knot, "");
   return row;
 }
 
+/** Writes what is given into a row of NaN. */
 function writeRow(rows: Float64Array, at: number, knot: Knot, place: string): void {
   if (typeof knot !== "object" || knot === null) throw wrongType(`${place}a knot`, "an object", knot);
   for (const key in knot) {
-    if (!KEYS.includes(key)) {
-      throw new FaircurveError(`${place}there is no key \`${key}\` here`, wasm.suggest(key, KEYS));
+    const value = knot[key as keyof Knot];
+    if (value === undefined && KEYS.has(key)) continue;
+    switch (key) {
+      case "join":
+        rows[at + 2] = joinCode(value, place);
+        break;
+      case "tangent":
+        if ((knot.tangent_in ?? knot.tangent_out) !== undefined) {
+          throw new FaircurveError(
+            `${place}\`tangent\` gives both sides, so no other may be given`,
+            "give `tangent`, or `tangent_in` and `tangent_out`",
+          );
+        }
+        vector(rows, at + KEYS.get("tangent_in")!, value, place, "tangent_in");
+        vector(rows, at + KEYS.get("tangent_out")!, value, place, "tangent_out");
+        break;
+      case "tangent_in":
+      case "tangent_out":
+        vector(rows, at + KEYS.get(key)!, value, place, key);
+        break;
+      default: {
+        const column = KEYS.get(key);
+        if (column === undefined) {
+          throw new FaircurveError(`${place}there is no key \`${key}\` here`, wasm.suggest(key, [...KEYS.keys()]));
+        }
+        rows[at + column] = number(value, place, key);
+      }
     }
   }
   for (const key of ["x", "y"] as const) {
     if (knot[key] === undefined) throw new FaircurveError(`${place}the key \`${key}\` is missing`);
-  }
-  rows[at] = number(knot.x, place, "x");
-  rows[at + 1] = number(knot.y, place, "y");
-  rows[at + 2] = knot.join === undefined ? NaN : joinCode(knot.join, place);
-  if (knot.tangent !== undefined && (knot.tangent_in ?? knot.tangent_out) !== undefined) {
-    throw new FaircurveError(
-      `${place}\`tangent\` gives both sides, so no other may be given`,
-      "give `tangent`, or `tangent_in` and `tangent_out`",
-    );
-  }
-  vector(rows, at + 3, knot.tangent ?? knot.tangent_in, place, "tangent_in");
-  vector(rows, at + 5, knot.tangent ?? knot.tangent_out, place, "tangent_out");
-  for (let i = 6; i < KEYS.length; i++) {
-    const key = KEYS[i] as "curl";
-    rows[at + 1 + i] = knot[key] === undefined ? NaN : number(knot[key], place, key);
   }
 }
 
@@ -65,10 +77,6 @@ function joinCode(join: unknown, place: string): number {
 }
 
 function vector(rows: Float64Array, at: number, value: unknown, place: string, key: string): void {
-  if (value === undefined) {
-    rows[at] = rows[at + 1] = NaN;
-    return;
-  }
   if (!Array.isArray(value) || value.length !== 2) {
     throw wrongType(`${place}\`${key}\``, "a vector such as [1, 0]", value);
   }

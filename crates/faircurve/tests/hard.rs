@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use faircurve::kurbo::Point;
+use faircurve::kurbo::{Affine, Point};
 use faircurve::{Contour, Effort, Join, Knot, Solution, Stage, Status, catalog, solve, solve_with};
 
 fn spiro(contour: &Contour) -> Solution {
@@ -92,5 +92,33 @@ fn bends_are_not_excused_as_cusps() {
     for knot in &solution.knots[1..3] {
         let jump = knot.curvature_out.unwrap() - knot.curvature_in.unwrap();
         assert!((jump * chord).abs() <= 1.1e-9, "{jump:e}");
+    }
+}
+
+/// Which way a knot turns that is passed straight on is nothing but rounding, and decided once which winding the
+/// search tried first: similar copies had other curves.
+#[test]
+fn a_knot_passed_straight_on_has_no_say() {
+    let knots = [
+        (100.0, -200.0, Join::Corner),
+        (211.59151344438789, -165.48069974285121, Join::G2),
+        (206.71937168044113, -28.48445791437598, Join::G4),
+        (88.53097152493964, -46.793918626099874, Join::CurveToTerminal),
+        (65.85515908633268, -2.231518216683895, Join::G2),
+        (-1.659371127699501, 130.44772037716564, Join::G2),
+        (-60.61334796711728, 209.41789298571916, Join::Corner),
+    ];
+    for spline in ["spiro", "mvc"] {
+        let spline = catalog::spline(spline).unwrap();
+        let length = |map: Affine| {
+            let knots = knots.map(|(x, y, join)| Knot::new(map * Point::new(x, y)).join(join));
+            solve(&Contour::open(knots), &*spline).unwrap().curve.length()
+        };
+        let first = length(Affine::IDENTITY);
+        for i in 0..40 {
+            let map = Affine::rotate(0.17 * f64::from(i))
+                * Affine::scale_non_uniform(1.0, if i % 2 == 0 { 1.0 } else { -1.0 });
+            assert!((length(map) - first).abs() < 1e-6 * first, "{map:?}");
+        }
     }
 }

@@ -2,6 +2,7 @@
 // it; the editor solves nothing by itself.
 
 import * as faircurve from "faircurve";
+import "faircurve/splines";
 
 /** @typedef {import("../core/document.js").Contour} Contour */
 /** @typedef {import("../core/document.js").Choice} Choice */

@@ -6,7 +6,7 @@
 //! four parameters follow from those at its two ends, and each knot's other two conditions are the
 //! equations. Whatever the joins, that is the same block tridiagonal system with blocks of 2.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::constraint_table::{self as table, Condition, Quantity, SegmentConstraints, Side};
 use super::family::{FourParamFamily, Response};
@@ -113,6 +113,13 @@ impl<'a> RunSystem<'a> {
                     Equation::Condition(_) => {}
                 }
             }
+        }
+        // Which way a knot turns that goes straight on, or straight back, is nothing but rounding: the
+        // way of the first that turns, so that mirroring the run mirrors the search.
+        let is_either = |turn: f64| turn == 0.0 || turn.abs() == fixed(PI);
+        let way = rounded.knots.iter().map(|knot| knot.turn).find(|turn| !is_either(*turn));
+        for knot in rounded.knots.iter_mut().filter(|knot| is_either(knot.turn)) {
+            knot.turn = knot.turn.copysign(way.unwrap_or(1.0));
         }
         rounded
     }
@@ -340,10 +347,14 @@ impl<'a> RunSystem<'a> {
     /// Computes responses and mismatches of the present state.
     pub(super) fn evaluate(&mut self) {
         self.responses.clear();
-        if self.rough {
-            self.responses.extend(self.parameters.iter().map(|p| self.family.respond_roughly(*p)));
-        } else {
-            self.responses.extend(self.parameters.iter().map(|p| self.family.respond(*p)));
+        for (i, parameters) in self.parameters.iter().enumerate() {
+            let response = match i.checked_sub(1) {
+                // As straight segments are, from which a solution starts.
+                Some(before) if self.parameters[before] == *parameters => self.responses[before],
+                _ if self.rough => self.family.respond_roughly(*parameters),
+                _ => self.family.respond(*parameters),
+            };
+            self.responses.push(response);
         }
         for i in 0..self.knots.len() {
             self.mismatch[i] = self.mismatch_at(i);

@@ -102,11 +102,11 @@ pub fn rough_spiro_moments(k: [f64; 4]) -> SpiroMoments {
     } else if wildness <= ROUGH[1] {
         single_panel(&GAUSS_12, k)
     } else if wildness <= ROUGH[2] {
-        single_panel(&GAUSS_16, k)
+        large_panel(&GAUSS_16.nodes, &GAUSS_16.pair_weights, k)
     } else if wildness <= ROUGH[3] {
-        single_panel(&GAUSS_24, k)
+        large_panel(&GAUSS_24.nodes, &GAUSS_24.pair_weights, k)
     } else if wildness <= ROUGH[4] {
-        single_panel(&GAUSS_32, k)
+        large_panel(&GAUSS_32.nodes, &GAUSS_32.pair_weights, k)
     } else {
         wild_moments(k)
     }
@@ -131,9 +131,9 @@ fn moments(k: [f64; 4]) -> SpiroMoments {
 fn wild_moments(k: [f64; 4]) -> SpiroMoments {
     let wildness = wildness(k);
     if wildness <= WILDNESS_24 {
-        single_panel(&GAUSS_24, k)
+        large_panel(&GAUSS_24.nodes, &GAUSS_24.pair_weights, k)
     } else if wildness <= WILDNESS_32 {
-        single_panel(&GAUSS_32, k)
+        large_panel(&GAUSS_32.nodes, &GAUSS_32.pair_weights, k)
     } else if wildness <= WILDEST {
         panels(k, (wildness / WILDNESS_32).ceil() as usize)
     } else if k.iter().all(|k| k.is_finite()) {
@@ -146,6 +146,29 @@ fn wild_moments(k: [f64; 4]) -> SpiroMoments {
 /// Quadrature over the whole interval with one rule.
 #[inline(always)]
 fn single_panel<const N: usize>(rule: &PairedRule<N>, k: [f64; 4]) -> SpiroMoments {
+    let mut sum = SpiroMoments([Complex64::ZERO; 5]);
+    add_nodes(&mut sum, &rule.nodes, &rule.pair_weights, k);
+    sum
+}
+
+/// The same for a rule whose number of pairs is a multiple of four, once in the program for all of them:
+/// for rules that are needed seldom.
+#[inline(never)]
+fn large_panel(nodes: &[f64], pair_weights: &[f64], k: [f64; 4]) -> SpiroMoments {
+    let mut sum = SpiroMoments([Complex64::ZERO; 5]);
+    let (nodes, weights) = (nodes.as_chunks::<4>().0, pair_weights.as_chunks::<4>().0);
+    nodes.iter().zip(weights).for_each(|(s, weights)| add_nodes(&mut sum, s, weights, k));
+    sum
+}
+
+/// Adds what some pairs of nodes contribute.
+#[inline(always)]
+fn add_nodes<const N: usize>(
+    SpiroMoments(m): &mut SpiroMoments,
+    nodes: &[f64; N],
+    pair_weights: &[f64; N],
+    k: [f64; 4],
+) {
     // Written as passes over arrays, each of which vectorises.
     let [k0, k1, k2, k3] = [k[0], k[1] / 2.0, k[2] / 6.0, k[3] / 24.0];
     let mut even_cos = [0.0; N];
@@ -153,26 +176,24 @@ fn single_panel<const N: usize>(rule: &PairedRule<N>, k: [f64; 4]) -> SpiroMomen
     let mut odd_cos = [0.0; N];
     let mut odd_sin = [0.0; N];
     for i in 0..N {
-        let s = rule.nodes[i];
+        let s = nodes[i];
         let s2 = s * s;
         let (sin_e, cos_e) = sin_cos(s2 * (k1 + k3 * s2));
         let (sin_o, cos_o) = sin_cos(s * (k0 + k2 * s2));
-        let (even, odd) = (rule.pair_weights[i] * cos_o, rule.pair_weights[i] * sin_o * s);
+        let (even, odd) = (pair_weights[i] * cos_o, pair_weights[i] * sin_o * s);
         even_cos[i] = even * cos_e;
         even_sin[i] = even * sin_e;
         odd_cos[i] = odd * cos_e;
         odd_sin[i] = odd * sin_e;
     }
-    let mut m = [Complex64::ZERO; 5];
     for i in 0..N {
-        let s2 = rule.nodes[i] * rule.nodes[i];
+        let s2 = nodes[i] * nodes[i];
         m[0] += Complex64::new(even_cos[i], even_sin[i]);
         m[1] += Complex64::new(-odd_sin[i], odd_cos[i]);
         m[2] += Complex64::new(even_cos[i], even_sin[i]) * s2;
         m[3] += Complex64::new(-odd_sin[i], odd_cos[i]) * s2;
         m[4] += Complex64::new(even_cos[i], even_sin[i]) * (s2 * s2);
     }
-    SpiroMoments(m)
 }
 
 /// The integral by one quadrature rule over the whole interval.

@@ -73,7 +73,7 @@ impl<C: ParametricCurve> Measured<C> {
     }
 
     fn arc(&self, from: f64, to: f64) -> f64 {
-        gauss_16(&|u| self.curve.velocity(u).norm(), from, to)
+        gauss_16(&|u| size(self.curve.velocity(u)), from, to)
     }
 
     /// Appends the panels from `u` to `to`.
@@ -95,22 +95,28 @@ impl<C: ParametricCurve> Measured<C> {
             self.length += left + right;
             let (a, b) = (tangent(&self.curve, u, true), tangent(&self.curve, to, false));
             *direction += (b * a.conj()).arg();
-            // Through a cusp just at the joint.
-            let after = if to < 1.0 { tangent(&self.curve, to, true) } else { b };
-            *direction += (after * b.conj()).arg();
+            if to < 1.0 {
+                // Through a cusp just at the joint.
+                *direction += (tangent(&self.curve, to, true) * b.conj()).arg();
+            }
             return;
         }
         self.measure([u, middle], left, noise, direction, depth - 1);
         self.measure([middle, to], right, noise, direction, depth - 1);
     }
 
-    /// The sum of what the curve turns between five places.
+    /// The sum of the sines of what the curve turns between five places; infinite where it turns by more
+    /// than a right angle between two.
     fn turn(&self, from: f64, to: f64) -> f64 {
-        let at = |i: f64| {
+        let at = [0.0, 1.0, 2.0, 3.0, 4.0].map(|i| {
             let u = from + (to - from) * i / 4.0;
             tangent(&self.curve, u, i < 4.0)
+        });
+        let sine = |pair: &[Complex64]| {
+            let turn = pair[1] * pair[0].conj();
+            if turn.re > 0.0 { turn.im.abs() } else { f64::INFINITY }
         };
-        (0..4).map(|i| (at(f64::from(i) + 1.0) * at(f64::from(i)).conj()).arg().abs()).sum()
+        at.windows(2).map(sine).sum()
     }
 
     fn panel_at(&self, key: impl Fn(&Panel) -> bool) -> usize {
@@ -145,7 +151,7 @@ impl<C: ParametricCurve> Measured<C> {
             } else {
                 low = u;
             }
-            let step = over / self.curve.velocity(u).norm();
+            let step = over / size(self.curve.velocity(u));
             let next =
                 if (low..=high).contains(&(u - step)) { u - step } else { (low + high) / 2.0 };
             if (next - u).abs() <= f64::EPSILON * (end - panel.u) {
@@ -164,13 +170,19 @@ impl<C: ParametricCurve> Measured<C> {
     }
 }
 
+/// The absolute value, without the care that `norm` takes where it isn't needed.
+fn size(z: Complex64) -> f64 {
+    let squared = z.norm_sqr();
+    if (1e-280..1e280).contains(&squared) { squared.sqrt() } else { z.norm() }
+}
+
 /// The unit vector in the direction of travel just after (or before) a parameter.
 fn tangent(curve: &impl ParametricCurve, u: f64, after: bool) -> Complex64 {
     let series = curve.velocity_series(u);
     let Some(order) = series.iter().position(|v| v.norm_sqr() > 0.0) else {
         return Complex64::ONE;
     };
-    let leading = series[order] / series[order].norm();
+    let leading = series[order] / size(series[order]);
     // Before a place where it stands still, an odd power goes the other way.
     if after || order % 2 == 0 { leading } else { -leading }
 }
@@ -190,7 +202,7 @@ fn curvature_jet(v: [Complex64; 5]) -> [f64; 4] {
         w[j] = rest * inverse;
     }
     // Speed: σ′ = σ·Re w.
-    let mut speed = [v[0].norm(), 0.0, 0.0, 0.0];
+    let mut speed = [size(v[0]), 0.0, 0.0, 0.0];
     for j in 0..3 {
         let sum: f64 = (0..=j).map(|i| speed[i] * w[j - i].re).sum();
         speed[j + 1] = sum / (j + 1) as f64;
@@ -248,7 +260,7 @@ impl<C: ParametricCurve> UnitCurve for Measured<C> {
     fn integral(&self, from: f64, to: f64, f: &dyn Fn([f64; 4]) -> f64) -> f64 {
         let integrand = |u: f64| {
             let series = self.curve.velocity_series(u);
-            f(curvature_jet(series)) * series[0].norm()
+            f(curvature_jet(series)) * size(series[0])
         };
         let stops: Vec<f64> = self.stops(from, to).into_iter().map(|s| self.parameter(s)).collect();
         integrate(&integrand, &stops).min(f64::MAX)

@@ -98,3 +98,16 @@ fn corners_and_what_lies_beyond_are_errors() {
         assert!(fit_euler(ChordAngles::new(theta0, theta1)).is_ok());
     }
 }
+
+#[test]
+fn the_estimate_is_as_near_as_it_says() {
+    let steps = 200;
+    for i in -steps..=steps {
+        for j in -steps..=steps {
+            let angle = |i: i32| 2.2 * f64::from(i) / f64::from(steps);
+            let angles = ChordAngles::new(angle(i), angle(j));
+            let off = (estimate(angles) - fit_euler(angles).unwrap().k[1]).abs();
+            assert!(off < 1.51e-5, "{angles:?}: {off:e}");
+        }
+    }
+}
