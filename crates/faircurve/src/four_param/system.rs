@@ -115,11 +115,13 @@ impl<'a> RunSystem<'a> {
             }
         }
         // Which way a knot turns that goes straight on, or straight back, is nothing but rounding: the
-        // way of the first that turns, so that mirroring the run mirrors the search.
+        // former takes the way of the first that turns, the latter the other way (with which a few
+        // more are solved), so that mirroring the run mirrors the search.
         let is_either = |turn: f64| turn == 0.0 || turn.abs() == fixed(PI);
-        let way = rounded.knots.iter().map(|knot| knot.turn).find(|turn| !is_either(*turn));
+        let first = rounded.knots.iter().map(|knot| knot.turn).find(|turn| !is_either(*turn));
+        let way = first.unwrap_or(1.0);
         for knot in rounded.knots.iter_mut().filter(|knot| is_either(knot.turn)) {
-            knot.turn = knot.turn.copysign(way.unwrap_or(1.0));
+            knot.turn = knot.turn.copysign(if knot.turn == 0.0 { way } else { -way });
         }
         rounded
     }
