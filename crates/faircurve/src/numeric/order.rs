@@ -28,7 +28,7 @@ mod tests {
         let mut items: Vec<(u32, usize)> =
             (0..500).map(|i| ((i as u32).wrapping_mul(2_654_435_761) >> 27, i)).collect();
         let mut expected = items.clone();
-        expected.sort_by(|a, b| a.0.cmp(&b.0));
+        expected.sort_by_key(|item| item.0);
         sort_by(&mut items, |a, b| a.0.cmp(&b.0));
         assert_eq!(items, expected);
         sort_by::<f64>(&mut [], f64::total_cmp);
