@@ -20,6 +20,7 @@ mod tuning;
 use kurbo::{BezPath, CubicBez, PathSeg};
 
 use crate::curve::Curve;
+use crate::numeric::order::sort_by;
 use crate::segment::{Segment, Shape};
 use crate::tolerance::SOLVED;
 
@@ -246,7 +247,7 @@ fn stretch_places(stretch: &Stretch<'_>, start: f64, options: &Options) -> Vec<f
     }
     places.extend(options.at.iter().map(|s| s - start));
     places.retain(|s| *s == 0.0 || (*s > SAME * length && *s < (1.0 - SAME) * length));
-    places.sort_by(f64::total_cmp);
+    sort_by(&mut places, f64::total_cmp);
     places.dedup_by(|b, a| *b - *a <= SAME * length);
     places.push(length);
     places

@@ -2,6 +2,7 @@
 
 use crate::curve::Curve;
 use crate::frame::wrap_angle;
+use crate::numeric::order::sort_by;
 use crate::segment::{PolynomialSpiral, Segment, Shape};
 
 /// What can be measured of a curve, or of several together. All numbers are finite; where an
@@ -136,7 +137,7 @@ fn inside(ends: &[f64], along: f64) -> f64 {
 fn turning(segment: &Segment) -> f64 {
     let mut stops = stretches(segment);
     stops.extend(segment.inflections());
-    stops.sort_by(f64::total_cmp);
+    sort_by(&mut stops, f64::total_cmp);
     let turn = |ends: &[f64]| {
         (segment.direction(inside(ends, 1.0)) - segment.direction(inside(ends, 0.0))).abs()
     };

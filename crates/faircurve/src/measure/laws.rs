@@ -512,7 +512,7 @@ fn moves(spline: &dyn Spline) -> Moves {
             ratios.push(apart / ((to - from) * way.hypot()));
         }
     }
-    ratios.sort_by(f64::total_cmp);
+    sort_by(&mut ratios, f64::total_cmp);
     let ratio = ratios.get(ratios.len() / 2).copied();
     Moves { ratio, jumps: f64::from(jumps) / PATHS as f64 }
 }
@@ -632,7 +632,7 @@ pub fn spread_about_one_curve(solutions: &[Solution]) -> Option<f64> {
             Some((before.1 + (after.1 - before.1) * along - v).abs())
         })
         .collect();
-    errors.sort_by(f64::total_cmp);
+    sort_by(&mut errors, f64::total_cmp);
     errors.get(errors.len() * 9 / 10).copied()
 }
 

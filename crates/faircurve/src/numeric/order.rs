@@ -4,7 +4,6 @@ use std::cmp::Ordering;
 
 /// Sorts as [`slice::sort_by`] does: equal items stay in their order. That is compiled anew for every
 /// kind of item and order, each 5 to 30 kB of a program; this is compiled once, and clones the items.
-/// Lists of plain numbers are sorted by `sort_by(f64::total_cmp)`.
 pub(crate) fn sort_by<T: Clone>(items: &mut [T], compare: impl Fn(&T, &T) -> Ordering) {
     let order = ordered(items.len(), &|i, j| compare(&items[i], &items[j]));
     let sorted: Vec<T> = order.into_iter().map(|i| items[i].clone()).collect();

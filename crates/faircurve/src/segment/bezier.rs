@@ -1,6 +1,7 @@
 //! Béziers as shapes of segments.
 
-use kurbo::{CubicBez, ParamCurve, PathSeg, Point};
+use kurbo::common::solve_quadratic;
+use kurbo::{CubicBez, ParamCurve, PathSeg, Point, Rect};
 use num_complex::Complex64;
 
 use super::ParametricCurve;
@@ -33,6 +34,17 @@ impl UnitBezier {
         let velocity = [first, 1.0 - first - last, last].map(|leg| leg * 3.0);
         UnitBezier { velocity, ..UnitBezier::new(PathSeg::Cubic(cubic)) }
     }
+}
+
+/// The smallest box that holds a Bézier: its ends, and where a coordinate stands still.
+pub(super) fn bounds(bezier: PathSeg) -> Rect {
+    let CubicBez { p0, p1, p2, p3 } = bezier.to_cubic();
+    let legs = [p1 - p0, p2 - p1, p3 - p2];
+    [legs.map(|leg| leg.x), legs.map(|leg| leg.y)]
+        .into_iter()
+        .flat_map(|[a, b, c]| solve_quadratic(a, 2.0 * (b - a), a - 2.0 * b + c))
+        .filter(|t| (0.0..=1.0).contains(t))
+        .fold(Rect::from_points(p0, p3), |bounds, t| bounds.union_pt(bezier.eval(t)))
 }
 
 pub(super) fn complex(p: Point) -> Complex64 {

@@ -8,11 +8,12 @@ mod unit_curve;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-use kurbo::{Affine, ParamCurve, PathSeg, Point, Rect, Shape as _, Vec2};
+use kurbo::{Affine, ParamCurve, PathSeg, Point, Rect, Vec2};
 use num_complex::Complex64;
 
 use crate::frame::{ChordAngles, direction, turning, wrap_angle};
 use crate::numeric::elastica::Elastica;
+use crate::numeric::order::sort_by;
 use crate::numeric::quadrature::integrate;
 use crate::numeric::roots::{monotone_root, roots_between};
 use crate::numeric::spiro_integral::{angle, curvature_jet, spiro_integral_between, wildness};
@@ -565,7 +566,7 @@ impl Segment {
                         places.push(before);
                     }
                 }
-                places.sort_by(f64::total_cmp);
+                sort_by(&mut places, f64::total_cmp);
                 places
             }
         }
@@ -605,7 +606,7 @@ impl Segment {
                         places.push(before);
                     }
                 }
-                places.sort_by(f64::total_cmp);
+                sort_by(&mut places, f64::total_cmp);
                 places.dedup_by(|after, before| *after - *before <= 1e-12 * self.length);
                 places
             }
@@ -671,7 +672,7 @@ impl Segment {
             return members.iter().fold(bounds, |bounds, m| bounds.union(m.bounding_box()));
         }
         if let Some(beziers) = self.beziers() {
-            return beziers.iter().fold(bounds, |bounds, b| bounds.union(b.bounding_box()));
+            return beziers.iter().fold(bounds, |bounds, b| bounds.union(bezier::bounds(*b)));
         }
         for s in self.axis_extrema() {
             bounds = bounds.union_pt(self.point(s));
@@ -871,7 +872,7 @@ impl Segment {
             .into_iter()
             .map(|s| if piece.backwards { piece.to - s } else { s - piece.from } * scale)
             .collect();
-        stops.sort_by(f64::total_cmp);
+        sort_by(&mut stops, f64::total_cmp);
         stops
     }
 

@@ -117,7 +117,6 @@ impl FourParamFamily for PolynomialSpirals {
 ///
 /// so that only log c and ψ depend on the ends nonlinearly, through
 /// d(log c + iψ) = Σ i M_{j+1}/((j+1)! M₀) dk_j: two real equations.
-#[inline(always)]
 fn respond(k: [f64; 4], moments: &SpiroMoments) -> Response {
     let m0 = moments.integral();
     let c = m0.norm_sqr().sqrt();
