@@ -7,6 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use faircurve::catalog::ENTRIES;
+use faircurve_format::catalogue_json;
 use wasm_bindgen_cli_support::Bindgen;
 
 use crate::{at, root};
@@ -50,7 +52,8 @@ pub(crate) fn build() -> Result<PathBuf, String> {
         module(name, level, wasm_level)?;
     }
     let rows = source.join("js/wasm/catalogue.ts");
-    fs::write(&rows, catalogue()).map_err(|error| at(&rows, &error))?;
+    let catalogue = catalogue().map_err(|error| error.to_string())?;
+    fs::write(&rows, catalogue).map_err(|error| at(&rows, &error))?;
     scripts(&package)?;
     let wasm = package.join("wasm");
     fs::create_dir_all(&wasm).map_err(|error| at(&wasm, &error))?;
@@ -68,15 +71,18 @@ pub(crate) fn build() -> Result<PathBuf, String> {
     Ok(package)
 }
 
-/// The catalogue for scripts: known without any module.
-fn catalogue() -> String {
-    let list: serde_json::Value =
-        serde_json::from_str(&faircurve_format::catalogue_json::write()).unwrap_or_default();
-    format!(
+/// The catalogue for scripts, known without any module: what `list --json` prints, with the order of
+/// continuity.
+fn catalogue() -> Result<String, serde_json::Error> {
+    let list: serde_json::Value = serde_json::from_str(&catalogue_json::write()?)?;
+    let mut rows = list["splines"].clone();
+    for (row, info) in rows.as_array_mut().into_iter().flatten().zip(ENTRIES) {
+        row["continuity"] = info.continuity().into();
+    }
+    Ok(format!(
         "import type {{ SplineInfo }} from \"../catalogue.js\";\n\n\
-         export const rows: Omit<SplineInfo, \"continuity\">[] = {};\n",
-        list["splines"]
-    )
+         export const rows: readonly SplineInfo[] = {rows};\n"
+    ))
 }
 
 fn source() -> PathBuf {

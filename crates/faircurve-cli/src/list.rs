@@ -14,7 +14,7 @@ use crate::output::to_stdout;
 pub(crate) fn run(args: &ListArgs) -> Result<ExitCode, Failure> {
     let text = match (args.format.as_str(), args.laws) {
         ("text", false) => as_text(),
-        ("json", false) => catalogue_json::write(),
+        ("json", false) => catalogue_json::write().map_err(|e| Failure::new(e.to_string()))?,
         ("text", true) => laws::as_text()?,
         ("json", true) => laws::as_json()?,
         (other, _) => {

@@ -40,10 +40,12 @@ enum ValuesEntry {
 
 /// Every spline with its parameters, joins, ends and claims, in the order of the catalogue:
 /// `{"faircurve": 1, "splines": [...]}`, ending in a line feed.
-pub fn write() -> String {
+///
+/// # Errors
+/// None that can happen: the catalogue has words and finite numbers only.
+pub fn write() -> Result<String, serde_json::Error> {
     let list = List { faircurve: 1, splines: ENTRIES.iter().map(|info| entry(info)).collect() };
-    // Words and numbers that are finite: nothing that JSON doesn't have.
-    serde_json::to_string_pretty(&list).unwrap_or_default() + "\n"
+    Ok(serde_json::to_string_pretty(&list)? + "\n")
 }
 
 fn entry(info: &SplineInfo) -> SplineEntry {

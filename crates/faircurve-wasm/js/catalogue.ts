@@ -33,7 +33,4 @@ export interface SplineInfo {
 }
 
 /** Every spline with its parameters, in the order in which lists show them, whether its module is loaded or not. */
-export const catalogue: readonly SplineInfo[] = rows.map((row) => ({
-  ...row,
-  continuity: Number(row.claims.find((claim) => /^g\d$/.test(claim))?.slice(1) ?? 0),
-}));
+export const catalogue = rows;

@@ -1,5 +1,5 @@
 /**
- * Files: a second module of WebAssembly, loaded when this is imported.
+ * Files: a module of WebAssembly of their own, loaded when this is imported.
  *
  * ```js
  * const { read, svg } = await import("faircurve/formats");

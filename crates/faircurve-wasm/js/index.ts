@@ -30,7 +30,7 @@ export type { Contour, Document, Glyph, Join, Knot, Params, SplineChoice, Vector
 export { FaircurveError, type Location } from "./error.js";
 export { LiveContour, Snapshot } from "./live.js";
 /** @internal */
-export { add } from "./solver.js";
+export { addSplines } from "./solver.js";
 
 /** How to solve. */
 export interface SolveOptions {

@@ -35,33 +35,26 @@ export function knotRow(knot: Knot): Float64Array {
 function writeRow(rows: Float64Array, at: number, knot: Knot, place: string): void {
   if (typeof knot !== "object" || knot === null) throw wrongType(`${place}a knot`, "an object", knot);
   for (const key in knot) {
+    const column = KEYS.get(key);
+    if (column === undefined) {
+      throw new FaircurveError(`${place}there is no key \`${key}\` here`, wasm.suggest(key, [...KEYS.keys()]));
+    }
     const value = knot[key as keyof Knot];
-    if (value === undefined && KEYS.has(key)) continue;
-    switch (key) {
-      case "join":
-        rows[at + 2] = joinCode(value, place);
-        break;
-      case "tangent":
-        if ((knot.tangent_in ?? knot.tangent_out) !== undefined) {
-          throw new FaircurveError(
-            `${place}\`tangent\` gives both sides, so no other may be given`,
-            "give `tangent`, or `tangent_in` and `tangent_out`",
-          );
-        }
-        vector(rows, at + KEYS.get("tangent_in")!, value, place, "tangent_in");
-        vector(rows, at + KEYS.get("tangent_out")!, value, place, "tangent_out");
-        break;
-      case "tangent_in":
-      case "tangent_out":
-        vector(rows, at + KEYS.get(key)!, value, place, key);
-        break;
-      default: {
-        const column = KEYS.get(key);
-        if (column === undefined) {
-          throw new FaircurveError(`${place}there is no key \`${key}\` here`, wasm.suggest(key, [...KEYS.keys()]));
-        }
-        rows[at + column] = number(value, place, key);
+    if (value === undefined) continue;
+    if (key === "join") {
+      rows[at + column] = joinCode(value, place);
+    } else if (key === "tangent") {
+      if ((knot.tangent_in ?? knot.tangent_out) !== undefined) {
+        throw new FaircurveError(
+          `${place}\`tangent\` gives both sides, so no other may be given`,
+          "give `tangent`, or `tangent_in` and `tangent_out`",
+        );
       }
+      for (const side of ["tangent_in", "tangent_out"]) vector(rows, at + KEYS.get(side)!, value, place, side);
+    } else if (key === "tangent_in" || key === "tangent_out") {
+      vector(rows, at + column, value, place, key);
+    } else {
+      rows[at + column] = number(value, place, key);
     }
   }
   for (const key of ["x", "y"] as const) {

@@ -11,19 +11,19 @@ await start(wasm, new URL("./wasm/solver_bg.wasm", import.meta.url));
 export type Solver = Pick<typeof wasm, "Choice" | "Live" | "solve">;
 
 const FIRST = wasm.splines() as string[];
+const NAMES = catalogue.map(({ name }) => name);
 let all: Solver | undefined;
 
-/** Has all splines from now on. */
-export function add(module: Solver): void {
+/** All splines are solved by this module from now on, but those that the first one has. */
+export function addSplines(module: Solver): void {
   all = module;
 }
 
 /** The module that has the spline. */
 export function solverOf(spline: string): Solver {
   if (FIRST.includes(spline)) return wasm;
-  const names = catalogue.map(({ name }) => name);
-  if (!names.includes(spline)) {
-    throw new FaircurveError(`there is no spline \`${spline}\``, wasm.suggest(spline, names));
+  if (!NAMES.includes(spline)) {
+    throw new FaircurveError(`there is no spline \`${spline}\``, wasm.suggest(spline, NAMES));
   }
   if (all === undefined) {
     throw new FaircurveError(

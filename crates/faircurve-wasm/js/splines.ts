@@ -1,5 +1,5 @@
 /**
- * All splines: a second module of WebAssembly, loaded when this is imported. `spiro`, `euler` and `hobby` are there
+ * All splines: a module of WebAssembly that is loaded when this is imported. `spiro`, `euler` and `hobby` are there
  * without it.
  *
  * ```js
@@ -9,7 +9,7 @@
  */
 import * as wasm from "./wasm/splines.js";
 import { start } from "./start.js";
-import { add } from "./index.js";
+import { addSplines } from "./index.js";
 
 await start(wasm, new URL("./wasm/splines_bg.wasm", import.meta.url));
-add(wasm);
+addSplines(wasm);

@@ -1,7 +1,6 @@
 // The module of all splines: asked for in words, loaded once; and what the first module weighs.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { join } from "node:path";
 import { test } from "node:test";
 import { gzipSync } from "node:zlib";
 import { line } from "d3-shape";
@@ -13,7 +12,7 @@ const points = knots.map(({ x, y }) => [x, y]);
 const by = (spline, closed = true) => solve({ spline, contours: [{ closed, knots }] }).contours[0];
 
 test("the first module is small", () => {
-  const module = readFileSync(join("node_modules/faircurve/wasm/solver_bg.wasm"));
+  const module = readFileSync("node_modules/faircurve/wasm/solver_bg.wasm");
   const size = gzipSync(module, { level: 9 }).length;
   assert.ok(size <= 200_000, `${size} bytes gzipped`);
 });

@@ -6,13 +6,13 @@
 //! start and direction become canonical, so that the result can't depend on them.
 //! [`Plan::assemble`] puts the solved runs back together in the input's numbering.
 
-use crate::numeric::order::sort_by;
 use std::fmt;
 
 use kurbo::{Point, Vec2};
 
 use crate::curve::Curve;
 use crate::frame::{circle_tangent, direction, turning, wrap_angle};
+use crate::numeric::order::sort_by;
 use crate::outline::{Contour, Join, Knot};
 use crate::segment::Segment;
 use crate::spline::{

@@ -1,6 +1,5 @@
 //! The metrics of thesis section 9.2 that compare directions.
 
-use crate::numeric::order::sort_by;
 use std::sync::LazyLock;
 
 use kurbo::common::GAUSS_LEGENDRE_COEFFS_16;
@@ -10,6 +9,7 @@ use super::contact::{cross, dot};
 use super::minimax::LocalCubic;
 use super::options::Metric;
 use super::piece::{Piece, Stretch};
+use crate::numeric::order::sort_by;
 
 /// Nodes of one panel.
 const NODES: usize = 16;

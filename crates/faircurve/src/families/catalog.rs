@@ -2,10 +2,10 @@
 //!
 //! Adding a family touches its own folder and one line of [`ENTRIES`].
 
-use crate::numeric::order::sort_by;
 use std::collections::BTreeMap;
 use std::fmt;
 
+use crate::numeric::order::sort_by;
 use crate::outline::Join;
 use crate::spline::Spline;
 

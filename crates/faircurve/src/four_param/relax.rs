@@ -1,13 +1,13 @@
 //! What happens to a run that can't be solved as asked: as little as possible is weakened, and every
 //! place is named with its reason.
 
-use crate::numeric::order::sort_by;
 use std::ops::RangeInclusive;
 
 use super::budget::Budget;
 use super::spline::{ConstraintSpline, Means, Solved, is_interior};
 use super::strategy::UNSETTLED;
 use crate::frame::{direction, wrap_angle};
+use crate::numeric::order::sort_by;
 use crate::outline::Join;
 use crate::plan::Run;
 use crate::spline::{Place, Relaxation};

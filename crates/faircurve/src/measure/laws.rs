@@ -5,13 +5,13 @@
 //! fractions of the drawing's size. What is measured on samples is a witness *against* a law when it
 //! is large, never a proof of one when it is small.
 
-use crate::numeric::order::sort_by;
 use std::f64::consts::TAU;
 
 use kurbo::{Affine, Point, Vec2};
 
 use super::fairness::{jumps, jumps_within};
 use crate::frame::{direction, wrap_angle};
+use crate::numeric::order::sort_by;
 use crate::outline::{Contour, Knot};
 use crate::segment::{Segment, Shape};
 use crate::spline::{Solution, Spline, Status, solve};

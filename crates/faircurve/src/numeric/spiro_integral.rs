@@ -32,6 +32,14 @@ impl SpiroMoments {
         const FACTORIAL: [f64; 4] = [1.0, 2.0, 6.0, 24.0];
         Complex64::i() * self.0[j + 1] / FACTORIAL[j]
     }
+
+    /// The moments after a small change of k₁, by Taylor's formula: ∂M_j/∂k₁ = i·M_{j+2}/2. The error of
+    /// M₀ is of the third order in it, that of M₁ and M₂ of the second; M₃ and M₄ are left as they are.
+    pub(crate) fn after_k1(self, change: f64) -> Self {
+        let SpiroMoments([m0, m1, m2, m3, m4]) = self;
+        let by = Complex64::new(0.0, change / 2.0);
+        SpiroMoments([m0 + by * (m2 + by * m4 / 2.0), m1 + by * m3, m2 + by * m4, m3, m4])
+    }
 }
 
 /// The spiro integral of eq. 8.1: curvature k₀ and its derivatives k₁, k₂, k₃ are those at the
@@ -102,11 +110,11 @@ pub fn rough_spiro_moments(k: [f64; 4]) -> SpiroMoments {
     } else if wildness <= ROUGH[1] {
         single_panel(&GAUSS_12, k)
     } else if wildness <= ROUGH[2] {
-        large_panel(&GAUSS_16.nodes, &GAUSS_16.pair_weights, k)
+        large_panel(&GAUSS_16, k)
     } else if wildness <= ROUGH[3] {
-        large_panel(&GAUSS_24.nodes, &GAUSS_24.pair_weights, k)
+        large_panel(&GAUSS_24, k)
     } else if wildness <= ROUGH[4] {
-        large_panel(&GAUSS_32.nodes, &GAUSS_32.pair_weights, k)
+        large_panel(&GAUSS_32, k)
     } else {
         wild_moments(k)
     }
@@ -131,9 +139,9 @@ fn moments(k: [f64; 4]) -> SpiroMoments {
 fn wild_moments(k: [f64; 4]) -> SpiroMoments {
     let wildness = wildness(k);
     if wildness <= WILDNESS_24 {
-        large_panel(&GAUSS_24.nodes, &GAUSS_24.pair_weights, k)
+        large_panel(&GAUSS_24, k)
     } else if wildness <= WILDNESS_32 {
-        large_panel(&GAUSS_32.nodes, &GAUSS_32.pair_weights, k)
+        large_panel(&GAUSS_32, k)
     } else if wildness <= WILDEST {
         panels(k, (wildness / WILDNESS_32).ceil() as usize)
     } else if k.iter().all(|k| k.is_finite()) {
@@ -151,13 +159,16 @@ fn single_panel<const N: usize>(rule: &PairedRule<N>, k: [f64; 4]) -> SpiroMomen
     sum
 }
 
-/// The same for a rule whose number of pairs is a multiple of four, once in the program for all of them:
-/// for rules that are needed seldom.
+/// The same bits, for rules that are needed seldom: they share the program's code, four pairs at a time.
+fn large_panel<const N: usize>(rule: &PairedRule<N>, k: [f64; 4]) -> SpiroMoments {
+    const { assert!(N.is_multiple_of(4)) }
+    sum_by_fours(rule.nodes.as_chunks().0, rule.pair_weights.as_chunks().0, k)
+}
+
 #[inline(never)]
-fn large_panel(nodes: &[f64], pair_weights: &[f64], k: [f64; 4]) -> SpiroMoments {
+fn sum_by_fours(nodes: &[[f64; 4]], pair_weights: &[[f64; 4]], k: [f64; 4]) -> SpiroMoments {
     let mut sum = SpiroMoments([Complex64::ZERO; 5]);
-    let (nodes, weights) = (nodes.as_chunks::<4>().0, pair_weights.as_chunks::<4>().0);
-    nodes.iter().zip(weights).for_each(|(s, weights)| add_nodes(&mut sum, s, weights, k));
+    nodes.iter().zip(pair_weights).for_each(|(s, weights)| add_nodes(&mut sum, s, weights, k));
     sum
 }
 
@@ -215,7 +226,7 @@ fn panels(k: [f64; 4], count: usize) -> SpiroMoments {
     let mut sum = [Complex64::ZERO; 5];
     for panel in 0..count {
         let middle = (panel as f64 + 0.5) * width - 0.5;
-        let local = single_panel(&GAUSS_32, sub_parameters(k, middle, width));
+        let local = large_panel(&GAUSS_32, sub_parameters(k, middle, width));
         let (sin, cos) = sin_cos(angle(k, middle));
         let turn = Complex64::new(cos, sin) * width;
         // s = middle + width·u: the binomial expansion of sʲ, by repeated multiplication.

@@ -43,7 +43,7 @@ struct Panel {
     direction: f64,
 }
 
-/// Radians that a panel may turn.
+/// About radians: what the sines of turns within a panel may add up to.
 const MOST_TURN: f64 = 1.0;
 /// Arc lengths below this part of what lengths are known to are none: a panel at a cusp ends there.
 const NEGLIGIBLE: f64 = 0.01;

@@ -1,6 +1,5 @@
 //! Cuts of a generating curve that is only known as a function κ(s).
 
-use crate::numeric::order::sort_by;
 use std::cell::Cell;
 use std::f64::consts::PI;
 use std::fmt;
@@ -12,6 +11,7 @@ use super::formula::Formula;
 use crate::families::euler::fit_euler;
 use crate::families::log_aesthetic::LogAesthetic;
 use crate::frame::ChordAngles;
+use crate::numeric::order::sort_by;
 use crate::numeric::quadrature::nodes_16;
 use crate::numeric::roots::monotone_root;
 use crate::numeric::spiro_integral::spiro_integral_between;

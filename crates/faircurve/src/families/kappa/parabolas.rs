@@ -1,13 +1,13 @@
 //! Yan et al.'s formulation: one parabola a knot, with its vertex there; neighbours meet with the same
 //! tangent and, up to sign, the same curvature.
 
-use crate::numeric::order::sort_by;
 use std::sync::Arc;
 
 use kurbo::{PathSeg, Point, QuadBez, Vec2};
 
 use crate::frame::{ChordAngles, EndCurvature, direction, wrap_angle};
 use crate::numeric::block_tridiagonal::BlockTridiagonal;
+use crate::numeric::order::sort_by;
 use crate::numeric::roots::horner;
 use crate::plan::Run;
 use crate::segment::{Measured, Segment, UnitBezier};

@@ -5,13 +5,13 @@ mod forces;
 mod segment;
 mod solutions;
 
-use crate::numeric::order::sort_by;
 use kurbo::Point;
 
 use super::catalog::{Claim, ParamKind, ParamSpec, Params, SplineInfo};
 use super::euler::{Euler, EulerSpirals};
 use super::shapes::{self, SHAPE};
 use crate::frame::ChordAngles;
+use crate::numeric::order::sort_by;
 use crate::outline::Join;
 use crate::plan::Run;
 use crate::segment::Segment;

@@ -4,11 +4,11 @@
 //! middle, α = κ‴ and β = ½κ′² − κκ″ − C there. Series are written for numbers of any kind, so that
 //! they also say how everything answers changes of the parameters.
 
-use crate::numeric::order::sort_by;
 use kurbo::PathSeg;
 use num_complex::Complex64;
 
 use crate::numeric::dual::Real;
+use crate::numeric::order::sort_by;
 use crate::segment::UnitCurve;
 
 /// Panels on either side of the middle; more than any curve takes that is worth drawing.

@@ -8,11 +8,11 @@
 //! difference of the end angles: T ≈ S/6c, D ≈ F/8c. The angles are known up to full turns, so that
 //! only the few windings near that point need trying.
 
-use crate::numeric::order::sort_by;
 use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 
+use crate::numeric::order::sort_by;
 use crate::numeric::spiro_integral::spiro_moments;
 
 /// Segments with the ends `[theta0, theta1, kappa0, kappa1]` (unit chord, angles modulo full turns),

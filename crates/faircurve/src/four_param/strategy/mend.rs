@@ -1,11 +1,11 @@
 //! Mending: bad stretches are restarted alone, with their rim held.
 
-use crate::numeric::order::sort_by;
 use std::ops::Range;
 
 use super::{Badness, REACH, Rescue, UNSETTLED, is_unsettled, turn_round};
 use crate::four_param::system::RunSystem;
 use crate::frame::wrap_angle;
+use crate::numeric::order::sort_by;
 
 /// A restart that leaves as many loops is kept if the run then bends less than so many times what
 /// it did; less of a gain isn't worth an attempt.
