@@ -165,7 +165,8 @@ export class LiveContour {
   }
 
   /** Comes back to a snapshot, to the bit; as often as you like. */
-  restore({ state }: Snapshot): void {
+  restore(snapshot: Snapshot): void {
+    const { state } = snapshot;
     this.#live.free();
     this.#live = state.live.snapshot();
     this.#solver = state.solver;
