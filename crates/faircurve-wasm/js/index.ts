@@ -64,7 +64,8 @@ export interface Solution {
  */
 export function solve(document: Document, options: SolveOptions = {}): Solution {
   if (typeof document !== "object" || document === null) throw wrongType("the document", "an object", document);
-  const { faircurve, glyphs, contours, effort = 1 } = { ...options, ...document };
+  const { faircurve, glyphs, contours } = document;
+  const { effort = 1 } = options;
   if (faircurve !== undefined && faircurve !== 1) {
     throw new FaircurveError(`version ${String(faircurve)} is unknown`, "this program reads version 1");
   }

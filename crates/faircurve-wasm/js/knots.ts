@@ -20,24 +20,27 @@ export function joinName(code: number): string {
 /** The rows of all knots. `place` starts messages: `contour 2, `. */
 export function knotRows(knots: readonly Knot[], place = ""): Float64Array {
   const rows = new Float64Array(ROW * knots.length).fill(NaN);
-  knots.forEach((knot, index) => writeRow(rows, ROW * index, knot, `${place}knot ${index}: `));
+  knots.forEach((knot, index) => writeRow(rows, ROW * index, knot, () => `${place}knot ${index}: `));
   return rows;
 }
 
 /** The row of one knot. */
 export function knotRow(knot: Knot): Float64Array {
   const row = new Float64Array(ROW).fill(NaN);
-  writeRow(row, 0, knot, "");
+  writeRow(row, 0, knot, () => "");
   return row;
 }
 
+/** What messages start with. */
+type Place = () => string;
+
 /** Writes what is given into a row of NaN. */
-function writeRow(rows: Float64Array, at: number, knot: Knot, place: string): void {
-  if (typeof knot !== "object" || knot === null) throw wrongType(`${place}a knot`, "an object", knot);
+function writeRow(rows: Float64Array, at: number, knot: Knot, place: Place): void {
+  if (typeof knot !== "object" || knot === null) throw wrongType(`${place()}a knot`, "an object", knot);
   for (const key in knot) {
     const column = KEYS.get(key);
     if (column === undefined) {
-      throw new FaircurveError(`${place}there is no key \`${key}\` here`, wasm.suggest(key, [...KEYS.keys()]));
+      throw new FaircurveError(`${place()}there is no key \`${key}\` here`, wasm.suggest(key, [...KEYS.keys()]));
     }
     const value = knot[key as keyof Knot];
     if (value === undefined) continue;
@@ -46,7 +49,7 @@ function writeRow(rows: Float64Array, at: number, knot: Knot, place: string): vo
     } else if (key === "tangent") {
       if ((knot.tangent_in ?? knot.tangent_out) !== undefined) {
         throw new FaircurveError(
-          `${place}\`tangent\` gives both sides, so no other may be given`,
+          `${place()}\`tangent\` gives both sides, so no other may be given`,
           "give `tangent`, or `tangent_in` and `tangent_out`",
         );
       }
@@ -58,28 +61,28 @@ function writeRow(rows: Float64Array, at: number, knot: Knot, place: string): vo
     }
   }
   for (const key of ["x", "y"] as const) {
-    if (knot[key] === undefined) throw new FaircurveError(`${place}the key \`${key}\` is missing`);
+    if (knot[key] === undefined) throw new FaircurveError(`${place()}the key \`${key}\` is missing`);
   }
 }
 
-function joinCode(join: unknown, place: string): number {
-  if (typeof join !== "string") throw wrongType(`${place}\`join\``, "a string", join);
+function joinCode(join: unknown, place: Place): number {
+  if (typeof join !== "string") throw wrongType(`${place()}\`join\``, "a string", join);
   const code = JOINS.indexOf(join);
-  if (code < 0) throw new FaircurveError(`${place}there is no join \`${join}\``, wasm.suggest(join, JOINS));
+  if (code < 0) throw new FaircurveError(`${place()}there is no join \`${join}\``, wasm.suggest(join, JOINS));
   return code;
 }
 
-function vector(rows: Float64Array, at: number, value: unknown, place: string, key: string): void {
+function vector(rows: Float64Array, at: number, value: unknown, place: Place, key: string): void {
   if (!Array.isArray(value) || value.length !== 2) {
-    throw wrongType(`${place}\`${key}\``, "a vector such as [1, 0]", value);
+    throw wrongType(`${place()}\`${key}\``, "a vector such as [1, 0]", value);
   }
   rows[at] = number(value[0], place, key);
   rows[at + 1] = number(value[1], place, key);
 }
 
 /** A number as it is; NaN, which would stand for nothing, as the infinity that is refused in its place. */
-function number(value: unknown, place: string, key: string): number {
-  if (typeof value !== "number") throw wrongType(`${place}\`${key}\``, "a number", value);
+function number(value: unknown, place: Place, key: string): number {
+  if (typeof value !== "number") throw wrongType(`${place()}\`${key}\``, "a number", value);
   return Number.isNaN(value) ? Infinity : value;
 }
 
@@ -104,7 +107,7 @@ export function splineOf(choice: SplineChoice, otherwise: SplineChoice = {}): Bu
   const params = choice.params ?? (choice.spline === undefined ? otherwise.params : undefined) ?? {};
   if (typeof name !== "string") throw wrongType("`spline`", "a string", name);
   if (typeof params !== "object") throw wrongType("`params`", "an object", params);
-  const key = JSON.stringify([name, params]);
+  const key = Object.keys(params).length === 0 ? name : JSON.stringify([name, params]);
   let spline = known.get(key);
   if (spline === undefined) {
     const solver = solverOf(name);

@@ -7,29 +7,36 @@ use kurbo::Point;
 use crate::segment::Segment;
 
 /// Tangents and curvatures at a segment's ends for unit chord, with the curvature derivatives that
-/// follow from them, and how all respond to a change.
-///
-/// Order of the four *jets*: `theta0`, `theta1` (see [`ChordAngles`](crate::frame::ChordAngles)), κ at the start,
-/// κ at the end. Order of the four *derivatives*: κ′ and κ″ at the start, κ′ and κ″ at the end.
+/// follow from them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ends {
+    /// `theta0`, `theta1` (see [`ChordAngles`](crate::frame::ChordAngles)), κ at the start, κ at the end.
+    pub jets: [f64; 4],
+    /// κ′ and κ″ at the start, κ′ and κ″ at the end.
+    pub derivatives: [f64; 4],
+    /// Chord over arc length, in [0, 1].
+    pub straightness: f64,
+}
+
+/// The ends of a segment, and how they respond to a change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
-    /// The jets of the present segment.
-    pub jets: [f64; 4],
-    /// Its derivatives.
-    pub derivatives: [f64; 4],
+    /// The ends of the present segment.
+    pub ends: Ends,
     /// ∂(derivatives)/∂(jets), by rows.
     pub derivatives_by_jets: [[f64; 4]; 4],
     /// ∂(the family's own parameters)/∂(jets), by rows.
     pub parameters_by_jets: [[f64; 4]; 4],
-    /// Chord over arc length, in [0, 1].
-    pub straightness: f64,
 }
 
 /// Curves with four parameters for given ends, such as polynomial spirals or minimum variation
 /// curves. Parameters are the family's own business; all zero must be the straight line.
 pub trait FourParamFamily: fmt::Debug {
-    /// The ends of the segment with these parameters, for unit chord.
+    /// The ends of the segment with these parameters, and their response.
     fn respond(&self, parameters: [f64; 4]) -> Response;
+
+    /// The ends alone.
+    fn ends(&self, parameters: [f64; 4]) -> Ends;
 
     /// The same to about 1e-7, if that is faster: for searching. A smooth function too, whose
     /// derivatives are its own.
@@ -42,7 +49,7 @@ pub trait FourParamFamily: fmt::Debug {
     /// be drawable.
     fn between_tangents(&self, theta0: f64, theta1: f64) -> [f64; 4];
 
-    /// Segments with these ends (in the order of [`Response::jets`], directions modulo full turns),
+    /// Segments with these ends (in the order of [`Ends::jets`], directions modulo full turns),
     /// the straightest first: all but the most wound up that a search on a grid finds.
     fn between_ends(&self, ends: [f64; 4]) -> Vec<[f64; 4]>;
 

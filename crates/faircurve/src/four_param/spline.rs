@@ -231,7 +231,7 @@ mod tests {
 
     use super::*;
     use crate::families::spiro::{PolynomialSpirals, Spiro};
-    use crate::four_param::family::Response;
+    use crate::four_param::family::{Ends, Response};
     use crate::outline::{Contour, Knot};
     use crate::plan::Plan;
     use crate::segment::Segment;
@@ -254,6 +254,10 @@ mod tests {
         fn respond_roughly(&self, parameters: [f64; 4]) -> Response {
             self.count();
             PolynomialSpirals.respond_roughly(parameters)
+        }
+        fn ends(&self, parameters: [f64; 4]) -> Ends {
+            self.count();
+            PolynomialSpirals.ends(parameters)
         }
         fn between_tangents(&self, theta0: f64, theta1: f64) -> [f64; 4] {
             PolynomialSpirals.between_tangents(theta0, theta1)

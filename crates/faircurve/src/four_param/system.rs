@@ -9,7 +9,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::constraint_table::{self as table, Condition, Quantity, SegmentConstraints, Side};
-use super::family::{FourParamFamily, Response};
+use super::family::{Ends, FourParamFamily, Response};
 use crate::frame::{direction, wrap_angle};
 use crate::numeric::block_tridiagonal::BlockTridiagonal;
 use crate::numeric::newton::System;
@@ -39,6 +39,53 @@ pub(super) struct SystemKnot {
     pub turn: f64,
     /// Harmonic mean of the two chords: the length that makes equations dimensionless.
     h: f64,
+    /// h over the chord before and over the chord after, where there are any.
+    scale: [f64; 2],
+    /// Their reciprocals.
+    unscale: [f64; 2],
+}
+
+impl SystemKnot {
+    fn new(equations: [Equation; 2], turn: f64, left: Option<f64>, right: Option<f64>) -> Self {
+        let mut knot = SystemKnot { equations, turn, h: 1.0, scale: [1.0; 2], unscale: [1.0; 2] };
+        knot.set_chords(left, right);
+        knot
+    }
+
+    /// The knot between chords of these lengths.
+    fn set_chords(&mut self, left: Option<f64>, right: Option<f64>) {
+        self.h = match (left, right) {
+            (Some(l), Some(r)) => 2.0 * l * r / (l + r),
+            (Some(only), None) | (None, Some(only)) => only,
+            (None, None) => 1.0,
+        };
+        self.scale = [left, right].map(|chord| chord.map_or(1.0, |chord| self.h / chord));
+        self.unscale = [left, right].map(|chord| chord.map_or(1.0, |chord| chord / self.h));
+    }
+
+    /// [`scale`](Self::scale) to the power of a curvature's derivative of this order.
+    fn weight(&self, side: usize, order: usize) -> f64 {
+        let scale = self.scale[side];
+        if order == 1 { scale * scale } else { scale * scale * scale }
+    }
+}
+
+/// By how much what is asked of a knot doesn't hold: dimensionless, right side minus left.
+#[derive(Clone, Copy, Debug, Default)]
+struct Mismatch {
+    direction: f64,
+    curvature: f64,
+    /// Of the knot's own two equations.
+    equations: [f64; 2],
+}
+
+impl Mismatch {
+    /// The largest of them.
+    fn worst(&self) -> f64 {
+        let [first, second] = self.equations;
+        let [direction, curvature] = [self.direction.abs(), self.curvature.abs()];
+        larger(larger(direction, curvature), larger(first.abs(), second.abs()))
+    }
 }
 
 /// What Newton's method changes: the parameters of every segment, and the winding at every knot.
@@ -53,11 +100,13 @@ pub(super) struct RunSystem<'a> {
     /// The family's parameters of each segment: the state.
     pub parameters: Vec<[f64; 4]>,
     responses: Vec<Response>,
-    /// Mismatch at each knot of direction, and of curvature times h: right side minus left.
-    mismatch: Vec<[f64; 2]>,
+    /// What doesn't hold at each knot.
+    mismatches: Vec<Mismatch>,
     closed: bool,
     /// Whether segments are evaluated roughly.
     rough: bool,
+    /// Whether the last step was so short that how segments respond is still the same.
+    is_near: bool,
 }
 
 impl<'a> RunSystem<'a> {
@@ -70,7 +119,7 @@ impl<'a> RunSystem<'a> {
             .map(|i| {
                 let (left, right) = neighbours(i, n, run.closed);
                 let (equations, turn) = equations(run, i, left, right);
-                SystemKnot { equations, turn, h: harmonic_mean(&chords, left, right) }
+                SystemKnot::new(equations, turn, left.map(|l| chords[l]), right.map(|r| chords[r]))
             })
             .collect();
         RunSystem {
@@ -79,9 +128,10 @@ impl<'a> RunSystem<'a> {
             chords,
             parameters: vec![[0.0; 4]; segments],
             responses: Vec::with_capacity(segments),
-            mismatch: vec![[0.0; 2]; n],
+            mismatches: vec![Mismatch::default(); n],
             closed: run.closed,
             rough: false,
+            is_near: false,
         }
     }
 
@@ -104,7 +154,7 @@ impl<'a> RunSystem<'a> {
         rounded.chords.iter_mut().for_each(|chord| *chord = floating(*chord / longest));
         for (i, knot) in rounded.knots.iter_mut().enumerate() {
             let (left, right) = neighbours(i, n, self.closed);
-            knot.h = harmonic_mean(&rounded.chords, left, right);
+            knot.set_chords(left.map(|l| rounded.chords[l]), right.map(|r| rounded.chords[r]));
             knot.turn = fixed(knot.turn);
             for equation in &mut knot.equations {
                 match equation {
@@ -179,9 +229,7 @@ impl<'a> RunSystem<'a> {
         if beside.into_iter().any(|segment| self.straightness(segment) * LONGEST < 1.0) {
             return f64::INFINITY;
         }
-        let values = self.knots[i].equations.map(|equation| self.value(i, equation).abs());
-        let [direction, curvature] = self.mismatch[i].map(f64::abs);
-        direction.max(curvature).max(values[0]).max(values[1])
+        self.mismatches[i].worst()
     }
 
     /// A system of its own for the knots `from ..= to`, around the end if `to` isn't greater, with
@@ -194,13 +242,13 @@ impl<'a> RunSystem<'a> {
         // What the neighbours beyond the rim say holds, not what lies within.
         if self.closed || from > 0 {
             let before = if from > 0 { from - 1 } else { n - 1 };
-            let jets = &self.responses[before].jets;
+            let jets = &self.responses[before].ends.jets;
             let direction = Equation::Direction(self.knots[from].turn - jets[1]);
             let curvature = Equation::Curvature(jets[3] / self.chords[before]);
             knots[0].equations = rim(knots[0].equations, Side::Right, [direction, curvature]);
         }
         if self.closed || to + 1 < n {
-            let jets = &self.responses[to].jets;
+            let jets = &self.responses[to].ends.jets;
             let direction = Equation::Direction(self.knots[to].turn - jets[0]);
             let curvature = Equation::Curvature(jets[2] / self.chords[to]);
             knots[count].equations =
@@ -211,10 +259,11 @@ impl<'a> RunSystem<'a> {
             chords: (0..count).map(|i| self.chords[knot(i)]).collect(),
             parameters: (0..count).map(|i| self.parameters[knot(i)]).collect(),
             responses: Vec::with_capacity(count),
-            mismatch: vec![[0.0; 2]; count + 1],
+            mismatches: vec![Mismatch::default(); count + 1],
             knots,
             closed: false,
             rough: self.rough,
+            is_near: false,
         }
     }
 
@@ -227,7 +276,7 @@ impl<'a> RunSystem<'a> {
         }
         for (i, knot) in window.knots.iter().enumerate() {
             self.knots[(from + i) % n].turn = knot.turn;
-            self.mismatch[(from + i) % n] = self.mismatch_at((from + i) % n);
+            self.mismatches[(from + i) % n] = self.mismatch_at((from + i) % n);
         }
     }
 
@@ -256,7 +305,8 @@ impl<'a> RunSystem<'a> {
             return None;
         };
         let chord = self.chords[segment];
-        let (arriving, leaving) = (&self.responses[before].jets, &self.responses[after].jets);
+        let (arriving, leaving) =
+            (&self.responses[before].ends.jets, &self.responses[after].ends.jets);
         Some([
             self.knots[start].turn - arriving[1],
             self.knots[end].turn - leaving[0],
@@ -293,10 +343,10 @@ impl<'a> RunSystem<'a> {
     /// Chooses the winding at each knot in which its directions differ least.
     pub(super) fn unwind(&mut self) {
         for i in 0..self.knots.len() {
-            let turns = (self.mismatch[i][0] / TAU).round();
+            let turns = (self.mismatches[i].direction / TAU).round();
             if turns != 0.0 && turns.is_finite() {
                 self.knots[i].turn -= TAU * turns;
-                self.mismatch[i] = self.mismatch_at(i);
+                self.mismatches[i] = self.mismatch_at(i);
             }
         }
     }
@@ -331,9 +381,9 @@ impl<'a> RunSystem<'a> {
         self.closed
     }
 
-    /// Chord over arc length of each segment, as of the last linearisation.
+    /// Chord over arc length of each segment, as of the last evaluation.
     pub(super) fn straightness(&self, segment: usize) -> f64 {
-        self.responses[segment].straightness
+        self.responses[segment].ends.straightness
     }
 
     /// The segments that loop, as of the last evaluation.
@@ -343,7 +393,7 @@ impl<'a> RunSystem<'a> {
 
     /// That of the segment with the most winding.
     pub(super) fn least_straightness(&self) -> f64 {
-        self.responses.iter().map(|response| response.straightness).fold(1.0, f64::min)
+        self.responses.iter().map(|response| response.ends.straightness).fold(1.0, f64::min)
     }
 
     /// Computes responses and mismatches of the present state.
@@ -358,8 +408,21 @@ impl<'a> RunSystem<'a> {
             };
             self.responses.push(response);
         }
+        self.compare();
+    }
+
+    /// The same after a step that leaves the responses as they are.
+    fn evaluate_ends(&mut self) {
+        for (response, parameters) in self.responses.iter_mut().zip(&self.parameters) {
+            response.ends = self.family.ends(*parameters);
+        }
+        self.compare();
+    }
+
+    /// Compares what the segments say of each knot.
+    fn compare(&mut self) {
         for i in 0..self.knots.len() {
-            self.mismatch[i] = self.mismatch_at(i);
+            self.mismatches[i] = self.mismatch_at(i);
         }
     }
 
@@ -373,77 +436,65 @@ impl<'a> RunSystem<'a> {
         self.family.bend(self.parameters[segment])
     }
 
-    fn mismatch_at(&self, i: usize) -> [f64; 2] {
+    fn mismatch_at(&self, i: usize) -> Mismatch {
         let knot = &self.knots[i];
-        match neighbours(i, self.knots.len(), self.closed) {
-            (Some(l), Some(r)) => {
-                let (before, after) = (&self.responses[l].jets, &self.responses[r].jets);
-                [
-                    knot.turn - after[0] - before[1],
-                    (after[2] / self.chords[r] - before[3] / self.chords[l]) * knot.h,
-                ]
-            }
-            _ => [0.0; 2],
-        }
-    }
-
-    /// What `equation` is off by at knot `i`.
-    fn value(&self, i: usize, equation: Equation) -> f64 {
-        let n = self.knots.len();
-        let (left, right) = neighbours(i, n, self.closed);
-        let knot = &self.knots[i];
-        match equation {
-            Equation::Direction(angle) => match (left, right) {
-                (_, Some(r)) => self.responses[r].jets[0] - angle,
-                (Some(l), None) => angle - self.responses[l].jets[1],
+        let (left, right) = neighbours(i, self.knots.len(), self.closed);
+        let [before, after] = [left, right].map(|side| side.map(|j| &self.responses[j].ends));
+        let [scale_before, scale_after] = knot.scale;
+        let (direction, curvature) = match (before, after) {
+            (Some(before), Some(after)) => (
+                knot.turn - after.jets[0] - before.jets[1],
+                after.jets[2] * scale_after - before.jets[3] * scale_before,
+            ),
+            _ => (0.0, 0.0),
+        };
+        let value = |equation: Equation| match equation {
+            Equation::Direction(angle) => match (before, after) {
+                (_, Some(after)) => after.jets[0] - angle,
+                (Some(before), None) => angle - before.jets[1],
                 (None, None) => 0.0,
             },
-            Equation::Curvature(curvature) => {
-                let own = match (left, right) {
-                    (_, Some(r)) => self.responses[r].jets[2] / self.chords[r],
-                    (Some(l), None) => self.responses[l].jets[3] / self.chords[l],
-                    (None, None) => curvature,
-                };
-                (own - curvature) * knot.h
-            }
+            Equation::Curvature(curvature) => match (before, after) {
+                (_, Some(after)) => after.jets[2] * scale_after - curvature * knot.h,
+                (Some(before), None) => before.jets[3] * scale_before - curvature * knot.h,
+                (None, None) => 0.0,
+            },
             Equation::Condition(condition) => {
-                let side = |side: Side, order: usize| match (side, left, right) {
-                    (Side::Left, Some(l), _) => {
-                        self.responses[l].derivatives[1 + order] * self.weight(i, l, order)
-                    }
-                    (Side::Right, _, Some(r)) => {
-                        self.responses[r].derivatives[order - 1] * self.weight(i, r, order)
-                    }
-                    _ => 0.0,
-                };
                 let (order, signs) = condition_terms(condition);
-                signs[1] * side(Side::Right, order) + signs[0] * side(Side::Left, order)
+                let side = |side: usize, ends: Option<&Ends>| {
+                    let derivative = |ends: &Ends| ends.derivatives[2 * (1 - side) + order - 1];
+                    ends.map_or(0.0, |ends| {
+                        signs[side] * derivative(ends) * knot.weight(side, order)
+                    })
+                };
+                side(1, after) + side(0, before)
             }
-        }
-    }
-
-    /// (h/chord)^(order + 1): from unit chord to the knot's own scale.
-    fn weight(&self, knot: usize, segment: usize, order: usize) -> f64 {
-        let ratio = self.knots[knot].h / self.chords[segment];
-        if order == 1 { ratio * ratio } else { ratio * ratio * ratio }
+        };
+        let [first, second] = knot.equations;
+        Mismatch { direction, curvature, equations: [value(first), value(second)] }
     }
 }
 
 impl System<2> for RunSystem<'_> {
-    fn linearize(&mut self, matrix: &mut BlockTridiagonal<2>) -> f64 {
-        self.evaluate();
+    fn residual(&mut self) -> f64 {
+        if self.is_near && !self.rough {
+            self.evaluate_ends();
+        } else {
+            self.evaluate();
+        }
+        self.is_near = false;
+        self.mismatches.iter().map(Mismatch::worst).fold(0.0, larger)
+    }
+
+    fn linearize(&self, matrix: &mut BlockTridiagonal<2>) {
         let n = self.knots.len();
-        let mut residual = 0.0f64;
-        for i in 0..n {
+        for (i, knot) in self.knots.iter().enumerate() {
             let (left, right) = neighbours(i, n, self.closed);
             let (mut lower, mut diagonal, mut upper) =
                 ([[0.0; 2]; 2], [[0.0; 2]; 2], [[0.0; 2]; 2]);
-            let mut values = [0.0; 2];
-            let mut worst = self.mismatch[i][0].abs().max(self.mismatch[i][1].abs());
-            for (row, equation) in self.knots[i].equations.into_iter().enumerate() {
-                let value = self.value(i, equation);
-                worst = if value.is_nan() { value } else { worst.max(value.abs()) };
-                values[row] = -value;
+            let mismatch = &self.mismatches[i];
+            let mut values = mismatch.equations.map(|value| -value);
+            for (row, equation) in knot.equations.into_iter().enumerate() {
                 let condition = match equation {
                     // Unknowns are changes of the right side (of the left one at an open end).
                     Equation::Direction(_) => {
@@ -459,58 +510,56 @@ impl System<2> for RunSystem<'_> {
                 let (order, signs) = condition_terms(condition);
                 // The left segment: its start is knot i − 1, its end this knot.
                 if let (Some(l), true) = (left, signs[0] != 0.0) {
-                    let weight = signs[0] * self.weight(i, l, order);
-                    let by_jets = self.responses[l].derivatives_by_jets[1 + order];
-                    let before = if i == 0 { n - 1 } else { i - 1 };
-                    let to_end = [by_jets[1], by_jets[3] * self.chords[l] / self.knots[i].h];
-                    lower[row][0] -= weight * by_jets[0];
-                    lower[row][1] += weight * by_jets[2] * self.chords[l] / self.knots[before].h;
-                    diagonal[row][0] += weight * to_end[0];
-                    diagonal[row][1] += weight * to_end[1];
-                    values[row] -= weight
-                        * (to_end[0] * self.mismatch[i][0] + to_end[1] * self.mismatch[i][1]);
+                    let weight = signs[0] * knot.weight(0, order);
+                    let by_jets = &self.responses[l].derivatives_by_jets[1 + order];
+                    let before = &self.knots[if i == 0 { n - 1 } else { i - 1 }];
+                    let to_end = [weight * by_jets[1], weight * by_jets[3] * knot.unscale[0]];
+                    lower[row] = [-weight * by_jets[0], weight * by_jets[2] * before.unscale[1]];
+                    diagonal[row] = to_end;
+                    values[row] -= to_end[0] * mismatch.direction + to_end[1] * mismatch.curvature;
                 }
                 // The right segment: its start is this knot, its end knot i + 1.
                 if let (Some(r), true) = (right, signs[1] != 0.0) {
-                    let weight = signs[1] * self.weight(i, r, order);
-                    let by_jets = self.responses[r].derivatives_by_jets[order - 1];
-                    let after = if i + 1 == n { 0 } else { i + 1 };
-                    let to_end = [by_jets[1], by_jets[3] * self.chords[r] / self.knots[after].h];
+                    let weight = signs[1] * knot.weight(1, order);
+                    let by_jets = &self.responses[r].derivatives_by_jets[order - 1];
+                    let next = if i + 1 == n { 0 } else { i + 1 };
+                    let (after, beyond) = (&self.knots[next], &self.mismatches[next]);
+                    let to_end = [weight * by_jets[1], weight * by_jets[3] * after.unscale[0]];
                     diagonal[row][0] -= weight * by_jets[0];
-                    diagonal[row][1] += weight * by_jets[2] * self.chords[r] / self.knots[i].h;
-                    upper[row][0] += weight * to_end[0];
-                    upper[row][1] += weight * to_end[1];
-                    values[row] -= weight
-                        * (to_end[0] * self.mismatch[after][0]
-                            + to_end[1] * self.mismatch[after][1]);
+                    diagonal[row][1] += weight * by_jets[2] * knot.unscale[1];
+                    upper[row] = to_end;
+                    values[row] -= to_end[0] * beyond.direction + to_end[1] * beyond.curvature;
                 }
             }
-            residual = if worst.is_nan() { f64::NAN } else { residual.max(worst) };
             matrix.lower[i] = lower;
             matrix.diagonal[i] = diagonal;
             matrix.upper[i] = upper;
             matrix.right[i] = values;
         }
-        residual
     }
 
-    fn advance(&mut self, step: &[[f64; 2]]) {
+    fn advance(&mut self, step: &[[f64; 2]]) -> f64 {
         /// Largest bend of a segment in one step, in radians. Anything from ½ to 4 does about as well.
         const CLAMP: f64 = 1.0;
+        /// Bends after which the responses count as the same: what remains is of the second order in them,
+        /// and by what the next step errs, of the third.
+        const NEAR: f64 = 1e-5;
         let n = self.knots.len();
+        let mut size = 0.0;
         for segment in 0..self.parameters.len() {
             let (start, end) = (segment, (segment + 1) % n);
-            let chord = self.chords[segment];
+            let mismatch = &self.mismatches[end];
             let jets = [
                 -step[start][0],
-                step[end][0] + self.mismatch[end][0],
-                step[start][1] * chord / self.knots[start].h,
-                (step[end][1] + self.mismatch[end][1]) * chord / self.knots[end].h,
+                step[end][0] + mismatch.direction,
+                step[start][1] * self.knots[start].unscale[1],
+                (step[end][1] + mismatch.curvature) * self.knots[end].unscale[0],
             ];
             let by_jets = &self.responses[segment].parameters_by_jets;
             let mut change: [f64; 4] =
                 std::array::from_fn(|row| (0..4).map(|jet| by_jets[row][jet] * jets[jet]).sum());
             let bend = self.family.bend(change);
+            size = larger(size, bend);
             if bend > CLAMP {
                 change = change.map(|change| change * CLAMP / bend);
             }
@@ -518,16 +567,14 @@ impl System<2> for RunSystem<'_> {
                 (0..4).for_each(|row| self.parameters[segment][row] += change[row]);
             }
         }
+        self.is_near = size <= NEAR;
+        size
     }
 }
 
-/// The length that makes a knot's equations dimensionless.
-fn harmonic_mean(chords: &[f64], left: Option<usize>, right: Option<usize>) -> f64 {
-    match (left, right) {
-        (Some(l), Some(r)) => 2.0 * chords[l] * chords[r] / (chords[l] + chords[r]),
-        (Some(only), None) | (None, Some(only)) => chords[only],
-        (None, None) => 1.0,
-    }
+/// The larger number; not a number if either isn't.
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b || a.is_nan() { a } else { b }
 }
 
 /// The equations of a knot at a window's rim: its own that concern the side within alone, filled up

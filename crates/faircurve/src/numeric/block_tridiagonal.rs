@@ -168,9 +168,28 @@ fn times_vector<const B: usize>(a: &Block<B>, x: &[f64; B]) -> [f64; B] {
     result
 }
 
-/// The inverse by Gauss–Jordan elimination with partial pivoting.
+/// The inverse: of two rows by Cramer's rule, where little cancels, else by elimination.
 #[inline(always)]
 pub(crate) fn invert<const B: usize>(matrix: &Block<B>) -> Block<B> {
+    /// A determinant as large as this leaves all but two digits.
+    const LARGE: f64 = 0.01;
+    if B == 2 {
+        let [a, b, c, d] = [matrix[0][0], matrix[0][1], matrix[1][0], matrix[1][1]];
+        let (ad, bc) = (a * d, b * c);
+        let determinant = ad - bc;
+        if determinant.abs() > LARGE * (ad.abs() + bc.abs()) && determinant.is_normal() {
+            let mut inverse = *matrix;
+            let reciprocal = 1.0 / determinant;
+            (inverse[0][0], inverse[0][1]) = (d * reciprocal, -b * reciprocal);
+            (inverse[1][0], inverse[1][1]) = (-c * reciprocal, a * reciprocal);
+            return inverse;
+        }
+    }
+    eliminate(matrix)
+}
+
+/// The inverse by Gauss–Jordan elimination with partial pivoting.
+fn eliminate<const B: usize>(matrix: &Block<B>) -> Block<B> {
     /// Stands in for a pivot of zero, relative to the block's largest entry.
     const TINY_PIVOT: f64 = 1e-30;
     let mut a = *matrix;

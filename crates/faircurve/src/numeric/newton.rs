@@ -8,12 +8,17 @@ use super::block_tridiagonal::BlockTridiagonal;
 
 /// Equations that couple each unknown (a block of B numbers) with its neighbours.
 pub trait System<const B: usize> {
-    /// Writes the linearised equations at the present state into `matrix` (whose every entry it
-    /// must set) and returns the residual: the largest violated equation, dimensionless.
-    fn linearize(&mut self, matrix: &mut BlockTridiagonal<B>) -> f64;
+    /// Evaluates the equations at the present state and returns the residual: the largest violated
+    /// one, dimensionless.
+    fn residual(&mut self) -> f64;
 
-    /// Takes the step, shortened where the system knows better.
-    fn advance(&mut self, step: &[[f64; B]]);
+    /// Writes the equations, linearised at the state that was evaluated last, into `matrix`, whose every
+    /// entry it must set.
+    fn linearize(&self, matrix: &mut BlockTridiagonal<B>);
+
+    /// Takes the step, shortened where the system knows better, and returns its size: the most that
+    /// a direction changes by, in radians.
+    fn advance(&mut self, step: &[[f64; B]]) -> f64;
 }
 
 /// When Newton's method stops.
@@ -55,15 +60,20 @@ pub fn newton_while<const B: usize>(
 ) -> Outcome {
     /// Below this, quadratic convergence has arrived: another step can't help.
     const DONE: f64 = 4e-15;
+    /// Below this, it has where the last step was short: what is left of it is rounding.
+    const NEARLY_DONE: f64 = 1e-13;
+    const SHORT: f64 = 1e-7;
     /// From here on a residual that stops falling has met its rounding errors.
     const CLOSE: f64 = 1e-10;
     let mut least = f64::INFINITY;
     let mut waited = 0;
     let mut iterations = 0;
+    let mut step = f64::INFINITY;
     loop {
-        let residual = system.linearize(matrix);
+        let residual = system.residual();
         let outcome = Outcome { iterations, residual };
-        let ends = residual <= DONE || iterations >= limits.iterations || !residual.is_finite();
+        let is_done = residual <= if step <= SHORT { NEARLY_DONE } else { DONE };
+        let ends = is_done || iterations >= limits.iterations || !residual.is_finite();
         if ends || !goes_on(outcome) {
             return outcome;
         }
@@ -76,8 +86,9 @@ pub fn newton_while<const B: usize>(
             }
         }
         least = least.min(residual);
+        system.linearize(matrix);
         matrix.solve();
-        system.advance(&matrix.right);
+        step = system.advance(&matrix.right);
         iterations += 1;
     }
 }
@@ -92,24 +103,31 @@ mod tests {
         right: Vec<f64>,
     }
 
-    impl System<1> for Squares {
-        fn linearize(&mut self, matrix: &mut BlockTridiagonal<1>) -> f64 {
+    impl Squares {
+        fn error(&self, i: usize) -> f64 {
             let n = self.x.len();
-            let mut residual = 0.0f64;
-            for i in 0..n {
-                let (before, after) = (self.x[(i + n - 1) % n], self.x[(i + 1) % n]);
-                let error = self.right[i] - self.x[i] * self.x[i] - (before + after) / 100.0;
-                residual = residual.max(error.abs());
+            let (before, after) = (self.x[(i + n - 1) % n], self.x[(i + 1) % n]);
+            self.right[i] - self.x[i] * self.x[i] - (before + after) / 100.0
+        }
+    }
+
+    impl System<1> for Squares {
+        fn residual(&mut self) -> f64 {
+            (0..self.x.len()).fold(0.0f64, |largest, i| largest.max(self.error(i).abs()))
+        }
+
+        fn linearize(&self, matrix: &mut BlockTridiagonal<1>) {
+            for i in 0..self.x.len() {
                 matrix.diagonal[i] = [[2.0 * self.x[i]]];
                 matrix.lower[i] = [[0.01]];
                 matrix.upper[i] = [[0.01]];
-                matrix.right[i] = [error];
+                matrix.right[i] = [self.error(i)];
             }
-            residual
         }
 
-        fn advance(&mut self, step: &[[f64; 1]]) {
+        fn advance(&mut self, step: &[[f64; 1]]) -> f64 {
             self.x.iter_mut().zip(step).for_each(|(x, step)| *x += step[0]);
+            step.iter().fold(0.0f64, |size, step| size.max(step[0].abs()))
         }
     }
 

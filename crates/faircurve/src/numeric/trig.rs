@@ -3,6 +3,10 @@
 
 use std::f64::consts::FRAC_1_PI;
 
+use num_complex::Complex64;
+
+use super::roots::horner;
+
 /// π in two parts, the first with so few bits (33) that its product with a number of half turns
 /// below 2²⁰ is exact (Cody and Waite).
 const PI: [f64; 2] = [3.141_592_653_468_251_2, 1.215_420_101_301_238_4e-10];
@@ -58,9 +62,36 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     (f64::from_bits(sine.to_bits() ^ sign), f64::from_bits(cosine.to_bits() ^ sign))
 }
 
+/// The argument of `z`, to 3e-16, sooner where it is small.
+#[inline]
+pub(crate) fn argument(z: Complex64) -> f64 {
+    /// Tangents up to which these many terms of the series are enough.
+    const SMALL: f64 = 0.125;
+    let tangent = z.im / z.re;
+    if z.re > 0.0 && tangent.abs() <= SMALL {
+        let q = -tangent * tangent;
+        let series = [1.0, 3.0, 5.0, 7.0, 9.0, 11.0, 13.0, 15.0, 17.0].map(|n| 1.0 / n);
+        tangent * horner(&series, q)
+    } else {
+        z.arg()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_argument_is_that_of_the_standard_library_on_both_sides_of_the_series_reach() {
+        for i in -4000..=4000 {
+            let angle = f64::from(i) / 4000.0;
+            for angle in [angle * 1e-9, angle * 0.14, angle * 3.1] {
+                let z = Complex64::from_polar(2.5, angle);
+                assert!((argument(z) - z.arg()).abs() <= 3e-16 * (1.0 + angle.abs()), "{angle}");
+            }
+        }
+        assert!(argument(Complex64::new(f64::NAN, 0.0)).is_nan());
+    }
 
     #[test]
     fn agrees_with_the_standard_library_over_decades() {

@@ -144,6 +144,7 @@ struct TangentSystem<'a> {
     closed: bool,
     responses: Vec<EndCurvatures>,
     mismatch: Vec<f64>,
+    rows: Vec<Row>,
     /// Knots whose equation is no longer asked for; they keep their tangents.
     given_up: Vec<bool>,
     adapted: Vec<Adaptation>,
@@ -193,6 +194,7 @@ impl<'a> TangentSystem<'a> {
             closed: run.closed,
             responses: Vec::with_capacity(segments),
             mismatch: vec![0.0; n],
+            rows: vec![Row::UNASKED; n],
             given_up: vec![false; n],
             adapted,
         };
@@ -242,6 +244,7 @@ impl<'a> TangentSystem<'a> {
             closed: self.closed,
             responses: Vec::with_capacity(self.contexts.len()),
             mismatch: self.mismatch.clone(),
+            rows: self.rows.clone(),
             given_up: self.given_up.clone(),
             adapted: Vec::new(),
         };
@@ -268,10 +271,11 @@ impl<'a> TangentSystem<'a> {
     /// the flow always has somewhere to go. Returns the number of steps taken, at most `most`.
     fn approach(&mut self, matrix: &mut BlockTridiagonal<1>, shift: f64, most: usize) -> usize {
         for taken in 0..=most {
-            let residual = self.linearize(matrix);
+            let residual = self.residual();
             if residual <= CLOSE || taken == most {
                 return taken;
             }
+            self.linearize(matrix);
             for (i, diagonal) in matrix.diagonal.iter_mut().enumerate() {
                 if !self.given_up[i] {
                     diagonal[0][0] += shift * self.mismatch[i];
@@ -357,6 +361,11 @@ struct Row {
     upper: f64,
 }
 
+impl Row {
+    /// The knot keeps its tangent.
+    const UNASKED: Row = Row { value: 0.0, lower: 0.0, diagonal: 1.0, upper: 0.0 };
+}
+
 impl TangentSystem<'_> {
     /// The equation of knot `i`. Its unknown is `theta0` of the segment after it, which is the turn
     /// less `theta1` of the one before; at the end of an open run, `theta1` itself.
@@ -395,7 +404,7 @@ impl TangentSystem<'_> {
                 Row { value, lower: -l0 * dv, diagonal: l1 * dv + r0 * dw, upper: r1 * dw * next }
             }
             (Equation::Direction(angle), _, _) => {
-                Row { value: self.tangents[i] - angle, diagonal: 1.0, ..Row::default() }
+                Row { value: self.tangents[i] - angle, ..Row::UNASKED }
             }
             (Equation::End(end), _, Some(r)) => {
                 let (value, [by0, by1]) = self.natural_end(end, r, 0);
@@ -414,7 +423,7 @@ impl TangentSystem<'_> {
                 Row { value, diagonal: by1, lower: by0, upper: 0.0 }
             }
             // A knot without a segment, or continuity at an end: nothing to ask.
-            _ => Row { diagonal: 1.0, ..Row::default() },
+            _ => Row::UNASKED,
         }
     }
 
@@ -509,39 +518,47 @@ impl TangentSystem<'_> {
 }
 
 impl System<1> for TangentSystem<'_> {
-    fn linearize(&mut self, matrix: &mut BlockTridiagonal<1>) -> f64 {
-        let n = self.tangents.len();
+    fn residual(&mut self) -> f64 {
         self.responses.clear();
         for segment in 0..self.contexts.len() {
             let response = self.map.curvatures(self.angles(segment), &self.contexts[segment]);
             self.responses.push(response);
         }
         let mut residual = 0.0f64;
-        for i in 0..n {
+        for i in 0..self.rows.len() {
             let mut row = self.row(i);
             self.mismatch[i] = row.value.abs();
             if self.given_up[i] {
-                row = Row { diagonal: 1.0, ..Row::default() };
+                row = Row::UNASKED;
             }
+            self.rows[i] = row;
             residual = if row.value.is_nan() { f64::NAN } else { residual.max(row.value.abs()) };
+        }
+        residual
+    }
+
+    fn linearize(&self, matrix: &mut BlockTridiagonal<1>) {
+        for (i, row) in self.rows.iter().enumerate() {
             matrix.lower[i] = [[row.lower]];
             matrix.diagonal[i] = [[row.diagonal]];
             matrix.upper[i] = [[row.upper]];
             matrix.right[i] = [-row.value];
         }
-        residual
     }
 
-    fn advance(&mut self, step: &[[f64; 1]]) {
+    fn advance(&mut self, step: &[[f64; 1]]) -> f64 {
         /// Radians a knot may turn in one step.
         const CLAMP: f64 = 0.7;
         let most = if self.map.is_linear() { f64::INFINITY } else { CLAMP };
+        let mut size = 0.0f64;
         for (i, [step]) in step.iter().enumerate() {
             if step.is_finite() {
                 self.tangents[i] += step.clamp(-most, most);
             }
+            size = size.max(step.abs());
             self.keep_in_range(i);
         }
+        size
     }
 }
 

@@ -9,7 +9,7 @@ use kurbo::Point;
 
 use super::catalog::{Claim, SplineInfo};
 use super::spiro::{PolynomialSpirals, Spiro};
-use crate::four_param::family::{FourParamFamily, Response};
+use crate::four_param::family::{Ends, FourParamFamily, Response};
 use crate::four_param::spline::ConstraintSpline;
 use crate::numeric::block_tridiagonal::invert;
 use crate::numeric::dual::{Dual, Real};
@@ -126,6 +126,15 @@ impl FourParamFamily for MinimumVariation {
         respond::<{ curve::ROUGH_TERMS }>(k, curve::ROUGHLY)
     }
 
+    fn ends(&self, k: [f64; 4]) -> Ends {
+        let ends = unit_ends::<_, { curve::TERMS }>(k, 0.0, curve::NEGLIGIBLE);
+        ends.map_or(NO_ENDS, |(jets, derivatives, straightness)| Ends {
+            jets,
+            derivatives,
+            straightness,
+        })
+    }
+
     fn between_tangents(&self, theta0: f64, theta1: f64) -> [f64; 4] {
         hermite::between_tangents(theta0, theta1)
     }
@@ -160,8 +169,7 @@ impl FourParamFamily for MinimumVariation {
     }
 }
 
-/// The ends of a segment for unit chord: what [`Response`] calls jets, and derivatives, and chord over
-/// arc length. `None` where the curve is too wild.
+/// What [`Ends`] says of a segment: jets, derivatives, straightness. `None` where the curve is too wild.
 fn unit_ends<T: Real, const N: usize>(
     k: [T; 4],
     constant: T,
@@ -177,18 +185,15 @@ fn unit_ends<T: Real, const N: usize>(
     Some((jets, [first0 * c2, second0 * c3, first1 * c2, second1 * c3], c))
 }
 
+/// Those of a segment that is too wild.
+const NO_ENDS: Ends = Ends { jets: [f64::NAN; 4], derivatives: [f64::NAN; 4], straightness: 0.0 };
+
 /// The response of the segment with these parameters; NaN where it is too wild.
 fn respond<const N: usize>(k: [f64; 4], negligible: f64) -> Response {
     let k = std::array::from_fn(|i| Dual::<4>::variable(k[i], i));
     let Some((jets, derivatives, c)) = unit_ends::<_, N>(k, Dual::from(0.0), negligible) else {
         let none = [[f64::NAN; 4]; 4];
-        return Response {
-            jets: [f64::NAN; 4],
-            derivatives: [f64::NAN; 4],
-            derivatives_by_jets: none,
-            parameters_by_jets: none,
-            straightness: 0.0,
-        };
+        return Response { ends: NO_ENDS, derivatives_by_jets: none, parameters_by_jets: none };
     };
     let parameters_by_jets = invert(&jets.map(|jet| jet.by));
     let derivatives_by_jets = derivatives.map(|derivative| {
@@ -196,13 +201,12 @@ fn respond<const N: usize>(k: [f64; 4], negligible: f64) -> Response {
             (0..4).map(|i| derivative.by[i] * parameters_by_jets[i][jet]).sum()
         })
     });
-    Response {
+    let ends = Ends {
         jets: jets.map(|jet| jet.value),
         derivatives: derivatives.map(|derivative| derivative.value),
-        derivatives_by_jets,
-        parameters_by_jets,
         straightness: c.value,
-    }
+    };
+    Response { ends, derivatives_by_jets, parameters_by_jets }
 }
 
 #[cfg(test)]

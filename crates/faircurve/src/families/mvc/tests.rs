@@ -27,11 +27,12 @@ fn responses_agree_with_differences() {
             };
             let (up, down) = (moved(1.0), moved(-1.0));
             // Through the jets, as the solver goes.
-            let jets: [f64; 4] = std::array::from_fn(|j| (up.jets[j] - down.jets[j]) / (2.0 * h));
+            let jets: [f64; 4] =
+                std::array::from_fn(|j| (up.ends.jets[j] - down.ends.jets[j]) / (2.0 * h));
             for row in 0..4 {
                 let own: f64 = (0..4).map(|j| response.parameters_by_jets[row][j] * jets[j]).sum();
                 assert!((own - f64::from(row == i)).abs() < 1e-6, "{k:?} {i} {row} {own}");
-                let slope = (up.derivatives[row] - down.derivatives[row]) / (2.0 * h);
+                let slope = (up.ends.derivatives[row] - down.ends.derivatives[row]) / (2.0 * h);
                 let own: f64 = (0..4).map(|j| response.derivatives_by_jets[row][j] * jets[j]).sum();
                 assert!((own - slope).abs() < 1e-6 * (1.0 + slope.abs()), "{k:?} {i} {row}");
             }
@@ -44,10 +45,11 @@ fn rough_responses_are_good_to_seven_digits() {
     for k in SAMPLES {
         let (fine, rough) = (MinimumVariation.respond(k), MinimumVariation.respond_roughly(k));
         for (a, b) in fine
+            .ends
             .jets
             .into_iter()
-            .chain(fine.derivatives)
-            .zip(rough.jets.into_iter().chain(rough.derivatives))
+            .chain(fine.ends.derivatives)
+            .zip(rough.ends.jets.into_iter().chain(rough.ends.derivatives))
         {
             assert!((a - b).abs() < 1e-7 * (1.0 + a.abs()), "{k:?} {a} {b}");
         }
@@ -148,7 +150,7 @@ fn a_free_length_is_the_best() {
 fn what_is_too_wild_is_none() {
     for k in [[1e9; 4], [f64::NAN, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, f64::INFINITY], [1e300; 4]] {
         assert!(MvcCurve::new(k, 0.0).is_none());
-        assert!(MinimumVariation.respond(k).jets[0].is_nan());
+        assert!(MinimumVariation.respond(k).ends.jets[0].is_nan());
         assert!(MinimumVariation.shape(Point::ZERO, Point::new(1.0, 0.0), k).is_line());
     }
     assert!(fit_mvc(ChordAngles::new(f64::NAN, 0.0), [0.0; 2]).is_none());

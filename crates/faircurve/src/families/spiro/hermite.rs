@@ -42,7 +42,7 @@ pub(super) fn between_ends(ends: [f64; 4]) -> Vec<[f64; 4]> {
             if (theta0 + theta1 - t).hypot(theta1 - theta0 - d) > REACH {
                 continue;
             }
-            let ends = Ends { t: theta0 + theta1, d: theta1 - theta0, s: sum, f: difference };
+            let ends = Sums { t: theta0 + theta1, d: theta1 - theta0, s: sum, f: difference };
             let is_new = |k: &[f64; 4]| {
                 let same = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-3 * (1.0 + a.abs());
                 !found.iter().any(|(_, other)| k.iter().zip(other).all(same))
@@ -71,14 +71,14 @@ const NEIGHBOURS: [(f64, f64); 9] = [
 
 /// Sums and differences of a segment's end angles and curvatures, for unit chord.
 #[derive(Clone, Copy, Debug)]
-struct Ends {
+struct Sums {
     t: f64,
     d: f64,
     s: f64,
     f: f64,
 }
 
-impl Ends {
+impl Sums {
     /// k₀ … k₃ for ln(chord/arc) and the chord's direction ψ in the frame of the middle.
     fn parameters(self, log_c: f64, psi: f64) -> [f64; 4] {
         let arc = (-log_c).exp();

@@ -8,10 +8,13 @@ use num_complex::Complex64;
 
 use super::catalog::{Claim, SplineInfo};
 use super::euler::fit_euler;
-use crate::four_param::family::{FourParamFamily, Response};
+use crate::four_param::family::{Ends, FourParamFamily, Response};
 use crate::four_param::spline::ConstraintSpline;
 use crate::frame::ChordAngles;
-use crate::numeric::spiro_integral::{SpiroMoments, rough_spiro_moments, spiro_moments};
+use crate::numeric::spiro_integral::{
+    SpiroMoments, rough_spiro_moments, spiro_integral, spiro_moments,
+};
+use crate::numeric::trig::argument;
 use crate::outline::Join;
 use crate::plan::Run;
 use crate::segment::{PolynomialSpiral, Segment};
@@ -82,6 +85,11 @@ impl FourParamFamily for PolynomialSpirals {
     fn respond_roughly(&self, k: [f64; 4]) -> Response {
         respond(k, &rough_spiro_moments(k))
     }
+
+    fn ends(&self, k: [f64; 4]) -> Ends {
+        ends(k, spiro_integral(k))
+    }
+
     fn between_tangents(&self, theta0: f64, theta1: f64) -> [f64; 4] {
         fit_euler(ChordAngles::new(theta0, theta1)).map_or([0.0; 4], |spiral| spiral.k)
     }
@@ -106,6 +114,24 @@ impl FourParamFamily for PolynomialSpirals {
     }
 }
 
+/// The ends of the segment with these parameters and this spiro integral.
+fn ends([k0, k1, k2, k3]: [f64; 4], integral: Complex64) -> Ends {
+    let c = integral.norm_sqr().sqrt();
+    let psi = argument(integral);
+    // Of the angle from the middle, what is the same on both sides, and what isn't.
+    let (even, odd) = (k0 / 2.0 + k2 / 48.0, k1 / 8.0 + k3 / 384.0);
+    // κ, κ′, κ″ at both ends for arc length 1.
+    let [kappa0, kappa1] = [-0.5, 0.5].map(|s| k0 + s * (k1 + s * (k2 / 2.0 + s * k3 / 6.0)));
+    let [first0, first1] = [-0.5, 0.5].map(|s| k1 + s * (k2 + s * k3 / 2.0));
+    let [second0, second1] = [-0.5, 0.5].map(|s| k2 + s * k3);
+    let (c2, c3) = (c * c, c * c * c);
+    Ends {
+        jets: [even - odd + psi, even + odd - psi, c * kappa0, c * kappa1],
+        derivatives: [c2 * first0, c3 * second0, c2 * first1, c3 * second1],
+        straightness: c,
+    }
+}
+
 /// The response of the segment with these parameters and moments.
 ///
 /// With c e^{iψ} the spiro integral (chord and arc length 1), and sums and differences of the
@@ -118,65 +144,58 @@ impl FourParamFamily for PolynomialSpirals {
 /// so that only log c and ψ depend on the ends nonlinearly, through
 /// d(log c + iψ) = Σ i M_{j+1}/((j+1)! M₀) dk_j: two real equations.
 fn respond(k: [f64; 4], moments: &SpiroMoments) -> Response {
-    let m0 = moments.integral();
-    let c = m0.norm_sqr().sqrt();
-    let psi = m0.arg();
-    let inverse = m0.inv();
-    let g: [Complex64; 4] = std::array::from_fn(|j| moments.derivative(j) * inverse);
-
-    // κ, κ′, κ″ at both ends for arc length 1.
-    let [k0, k1, k2, k3] = k;
-    let curvature = [-0.5, 0.5].map(|s| k0 + s * (k1 + s * (k2 / 2.0 + s * k3 / 6.0)));
-    let first = [-0.5, 0.5].map(|s| k1 + s * (k2 + s * k3 / 2.0));
-    let second = [-0.5, 0.5].map(|s| k2 + s * k3);
-    let (even, odd) = (k0 / 2.0 + k2 / 48.0, k1 / 8.0 + k3 / 384.0);
+    let ends = ends(k, moments.integral());
+    let c = ends.straightness;
+    let [_, _, kappa0, kappa1] = ends.jets;
+    let [first0, second0, first1, second1] = ends.derivatives;
+    let (a, b) = ((kappa0 + kappa1) / (2.0 * c), (kappa1 - kappa0) / c);
     let (c2, c3) = (c * c, c * c * c);
 
     // Response of log M₀ to T, A, E, B, and the two equations for d(log c), dψ.
-    let by_t = 1.5 * g[0] - 12.0 * g[2];
-    let by_a = 12.0 * g[2] - 0.5 * g[0];
-    let by_e = 8.0 * g[1] - 192.0 * g[3];
-    let by_b = 48.0 * g[3] - g[1];
-    let a = (curvature[0] + curvature[1]) / 2.0;
-    let b = curvature[1] - curvature[0];
+    let SpiroMoments([m0, moments @ ..]) = *moments;
+    let i_over_m0 = Complex64::new(m0.im, m0.re) / (c * c);
+    let [g0, g1, g2, g3] = moments.map(|moment| moment * i_over_m0);
+    let by_t = 1.5 * g0 - 2.0 * g2;
+    let by_a = 2.0 * g2 - 0.5 * g0;
+    let by_e = 4.0 * g1 - 8.0 * g3;
+    let by_b = 2.0 * g3 - 0.5 * g1;
     let log_c_column = 1.0 + by_a * a + by_b * b;
     let psi_column = Complex64::i() - 2.0 * by_e;
     let determinant = log_c_column.re * psi_column.im - log_c_column.im * psi_column.re;
+    let (log_c_column, psi_column) = (log_c_column / determinant, psi_column / determinant);
 
-    // One column for each of T, D, S, F.
-    let column = |t: f64, d: f64, s: f64, f: f64| -> [f64; 5] {
-        let right = by_t * t + by_e * d + (by_a * (s / 2.0) + by_b * f) / c;
-        let log_c = (right.re * psi_column.im - right.im * psi_column.re) / determinant;
-        let psi = (log_c_column.re * right.im - log_c_column.im * right.re) / determinant;
-        let da = s / (2.0 * c) - a * log_c;
-        let db = f / c - b * log_c;
-        let de = d + 2.0 * psi;
-        [(3.0 * t - da) / 2.0, 8.0 * de - db, 12.0 * (da - t), 48.0 * (db - 4.0 * de), log_c]
+    // Of T, D, S or F, what follows for k₀ … k₃ and for κ′, κ″ at both ends. By it, log M₀ changes by
+    // `right`, and T, A, B and E as given, but for what the changes of log c and ψ add.
+    let column = |right: Complex64, [t, a_alone, b_alone, e_alone]: [f64; 4]| {
+        let log_c = right.re * psi_column.im - right.im * psi_column.re;
+        let psi = log_c_column.re * right.im - log_c_column.im * right.re;
+        let (da, db) = (a_alone - a * log_c, b_alone - b * log_c);
+        let de = e_alone + 2.0 * psi;
+        let (half_k2, half_k3) = (6.0 * (da - t), 24.0 * (db - 4.0 * de));
+        let first = 5.0 * db - 16.0 * de;
+        let by_k = [(3.0 * t - da) / 2.0, 8.0 * de - db, 2.0 * half_k2, 2.0 * half_k3];
+        let derivatives = [
+            c2 * (first - half_k2) + 2.0 * first0 * log_c,
+            c3 * (2.0 * half_k2 - half_k3) + 3.0 * second0 * log_c,
+            c2 * (first + half_k2) + 2.0 * first1 * log_c,
+            c3 * (2.0 * half_k2 + half_k3) + 3.0 * second1 * log_c,
+        ];
+        (by_k, derivatives)
     };
-    let columns = [
-        column(1.0, -1.0, 0.0, 0.0),
-        column(1.0, 1.0, 0.0, 0.0),
-        column(0.0, 0.0, 1.0, -1.0),
-        column(0.0, 0.0, 1.0, 1.0),
-    ];
-    let mut derivatives_by_jets = [[0.0; 4]; 4];
-    let mut parameters_by_jets = [[0.0; 4]; 4];
-    for (jet, [d0, d1, d2, d3, log_c]) in columns.into_iter().enumerate() {
-        let by_k = [d0, d1, d2, d3];
-        (0..4).for_each(|row| parameters_by_jets[row][jet] = by_k[row]);
-        for (end, s) in [-0.5, 0.5].into_iter().enumerate() {
-            let d_first = d1 + s * (d2 + s * d3 / 2.0);
-            let d_second = d2 + s * d3;
-            derivatives_by_jets[2 * end][jet] = c2 * (d_first + 2.0 * first[end] * log_c);
-            derivatives_by_jets[2 * end + 1][jet] = c3 * (d_second + 3.0 * second[end] * log_c);
-        }
-    }
+    let t = column(by_t, [1.0, 0.0, 0.0, 0.0]);
+    let d = column(by_e, [0.0, 0.0, 0.0, 1.0]);
+    let s = column(by_a / (2.0 * c), [0.0, 1.0 / (2.0 * c), 0.0, 0.0]);
+    let f = column(by_b / c, [0.0, 0.0, 1.0 / c, 0.0]);
+    // T and D change by 1 and ∓1 with θ₀ and θ₁, S and F with κ₀ and κ₁.
+    let by_jets = |t: [f64; 4], d: [f64; 4], s: [f64; 4], f: [f64; 4]| {
+        std::array::from_fn(|row| {
+            [t[row] - d[row], t[row] + d[row], s[row] - f[row], s[row] + f[row]]
+        })
+    };
     Response {
-        jets: [even - odd + psi, even + odd - psi, c * curvature[0], c * curvature[1]],
-        derivatives: [c2 * first[0], c3 * second[0], c2 * first[1], c3 * second[1]],
-        derivatives_by_jets,
-        parameters_by_jets,
-        straightness: c,
+        ends,
+        derivatives_by_jets: by_jets(t.1, d.1, s.1, f.1),
+        parameters_by_jets: by_jets(t.0, d.0, s.0, f.0),
     }
 }
 

@@ -98,7 +98,7 @@ fn refined(mut k: [f64; 4], ends: [f64; 4], least: f64) -> Option<[f64; 4]> {
     let mut waited = 0;
     for _ in 0..MOST_STEPS {
         let response = PolynomialSpirals.respond(k);
-        let mut off: [f64; 4] = std::array::from_fn(|i| ends[i] - response.jets[i]);
+        let mut off: [f64; 4] = std::array::from_fn(|i| ends[i] - response.ends.jets[i]);
         (off[0], off[1]) = (wrap_angle(off[0]), wrap_angle(off[1]));
         let missed = off[0].abs().max(off[1].abs()).max(off[2].abs().max(off[3].abs()) / scale);
         if missed.is_nan() {
@@ -106,7 +106,7 @@ fn refined(mut k: [f64; 4], ends: [f64; 4], least: f64) -> Option<[f64; 4]> {
         }
         waited = if best.is_none_or(|(least, ..)| missed < 0.5 * least) { 0 } else { waited + 1 };
         if best.is_none_or(|(least, ..)| missed < least) {
-            best = Some((missed, k, response.straightness));
+            best = Some((missed, k, response.ends.straightness));
         }
         // What stops falling close to the end has met its rounding.
         if missed <= f64::EPSILON || waited > if missed < CLOSE { 0 } else { 6 } {

@@ -24,8 +24,8 @@ fn response_agrees_with_the_segment_and_with_differences() {
         let response = family.respond(k);
         let spiral = PolynomialSpiral::new(k);
         let ChordAngles { theta0, theta1 } = spiral.chord_angles();
-        assert!((response.jets[0] - theta0).abs() < 1e-14);
-        assert!((response.jets[1] - theta1).abs() < 1e-14);
+        assert!((response.ends.jets[0] - theta0).abs() < 1e-14);
+        assert!((response.ends.jets[1] - theta1).abs() < 1e-14);
         // Moving the parameters by what a change of one jet asks moves just that jet.
         let h = 1e-6;
         for jet in 0..4 {
@@ -35,10 +35,10 @@ fn response_agrees_with_the_segment_and_with_differences() {
             };
             let (up, down) = (moved(1.0), moved(-1.0));
             for other in 0..4 {
-                let slope = (up.jets[other] - down.jets[other]) / (2.0 * h);
+                let slope = (up.ends.jets[other] - down.ends.jets[other]) / (2.0 * h);
                 let expected = if other == jet { 1.0 } else { 0.0 };
                 assert!((slope - expected).abs() < 1e-6, "{k:?} {jet} {other}: {slope}");
-                let slope = (up.derivatives[other] - down.derivatives[other]) / (2.0 * h);
+                let slope = (up.ends.derivatives[other] - down.ends.derivatives[other]) / (2.0 * h);
                 let claimed = response.derivatives_by_jets[other][jet];
                 assert!((slope - claimed).abs() < 1e-5 * (1.0 + claimed.abs()), "{k:?} {slope}");
             }
@@ -58,7 +58,7 @@ fn segments_are_found_between_their_ends() {
         [2.0, 10.0, 300.0, -1500.0],
         [-2.5, -8.0, 420.0, 400.0],
     ] {
-        let [theta0, theta1, kappa0, kappa1] = family.respond(k).jets;
+        let [theta0, theta1, kappa0, kappa1] = family.respond(k).ends.jets;
         let found = family.between_ends([theta0 + TAU, theta1 - 3.0 * TAU, kappa0, kappa1]);
         let same =
             |other: &[f64; 4]| (0..4).all(|j| (other[j] - k[j]).abs() < 1e-5 * (1.0 + k[j].abs()));
@@ -67,12 +67,12 @@ fn segments_are_found_between_their_ends() {
         for found in found {
             let response = family.respond(found);
             let turns = |angle: f64| (angle / TAU - (angle / TAU).round()).abs() * TAU;
-            assert!(turns(response.jets[0] - theta0) < 1e-5, "{k:?}: {found:?}");
-            assert!(turns(response.jets[1] - theta1) < 1e-5, "{k:?}: {found:?}");
-            assert!((response.jets[2] - kappa0).abs() < 1e-4, "{k:?}: {found:?}");
-            assert!((response.jets[3] - kappa1).abs() < 1e-4, "{k:?}: {found:?}");
-            assert!(response.straightness <= straightness + 1e-9);
-            straightness = response.straightness;
+            assert!(turns(response.ends.jets[0] - theta0) < 1e-5, "{k:?}: {found:?}");
+            assert!(turns(response.ends.jets[1] - theta1) < 1e-5, "{k:?}: {found:?}");
+            assert!((response.ends.jets[2] - kappa0).abs() < 1e-4, "{k:?}: {found:?}");
+            assert!((response.ends.jets[3] - kappa1).abs() < 1e-4, "{k:?}: {found:?}");
+            assert!(response.ends.straightness <= straightness + 1e-9);
+            straightness = response.ends.straightness;
         }
     }
 }
@@ -234,10 +234,10 @@ fn fits_meet_their_ends() {
         let response = PolynomialSpirals.respond(spiral.k);
         let size = 1.0 + curvatures[0].abs().max(curvatures[1].abs());
         let off = [
-            crate::frame::wrap_angle(response.jets[0] - angles.theta0),
-            crate::frame::wrap_angle(response.jets[1] - angles.theta1),
-            (response.jets[2] - curvatures[0]) / size,
-            (response.jets[3] - curvatures[1]) / size,
+            crate::frame::wrap_angle(response.ends.jets[0] - angles.theta0),
+            crate::frame::wrap_angle(response.ends.jets[1] - angles.theta1),
+            (response.ends.jets[2] - curvatures[0]) / size,
+            (response.ends.jets[3] - curvatures[1]) / size,
         ];
         assert!(off.iter().all(|off| off.abs() < 1e-12), "{angles:?} {curvatures:?} {off:?}");
     }
