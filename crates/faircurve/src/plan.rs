@@ -66,7 +66,7 @@ impl Run {
 
     /// The chord vector of segment `index`.
     pub fn chord(&self, index: usize) -> Vec2 {
-        let next = (index + 1) % self.knots.len();
+        let next = if index + 1 == self.knots.len() { 0 } else { index + 1 };
         self.knots[next].point - self.knots[index].point
     }
 
@@ -832,13 +832,14 @@ fn is_straight(run: &Run) -> bool {
 /// it is reversed.
 fn canonical(run: Run, first_node: usize, nodes: usize) -> (Run, usize, bool) {
     let n = run.knots.len();
-    let forward = marks(&run);
+    let (size, chords) = coarse_chords(&run);
+    let forward = marks(&run, size, |i| chords[i]);
     let backwards = Run {
         knots: run.knots.iter().rev().map(|knot| reversed_knot(*knot)).collect(),
         closed: run.closed,
         unit: run.unit,
     };
-    let backward = marks(&backwards);
+    let backward = marks(&backwards, size, |i| chords[(2 * n - 2 - i) % n]);
     let start_of = |run: &Run, marks: &[Mark]| match run.closed {
         false => 0,
         true => {
@@ -851,14 +852,13 @@ fn canonical(run: Run, first_node: usize, nodes: usize) -> (Run, usize, bool) {
         }
     };
     let (a, b) = (start_of(&run, &forward), start_of(&backwards, &backward));
-    let written = |marks: &[Mark], start: usize| [&marks[start..], &marks[..start]].concat();
+    let order = from(&forward, a).cmp(from(&backward, b));
     let points = |run: &Run, start: usize| -> Vec<(f64, f64)> {
-        (0..n).map(|i| run.knots[(start + i) % n].point.into()).collect()
+        from(&run.knots, start).map(|knot| knot.point.into()).collect()
     };
-    let order = written(&forward, a).cmp(&written(&backward, b));
     let keep = order.is_lt() || order.is_eq() && points(&run, a) <= points(&backwards, b);
     let (chosen, start) = if keep { (&run, a) } else { (&backwards, b) };
-    let knots = (0..n).map(|i| chosen.knots[(start + i) % n]).collect();
+    let knots = from(&chosen.knots, start).copied().collect();
     // Knot b of the reversed list is knot n − 1 − b; the walk ends at the one after it.
     let first = if keep { a } else { (n - b) % n };
     (Run { knots, closed: run.closed, unit: run.unit }, (first_node + first) % nodes, !keep)
@@ -869,23 +869,33 @@ fn canonical(run: Run, first_node: usize, nodes: usize) -> (Run, usize, bool) {
 /// don't tell knots apart that are alike.
 type Mark = (Join, i64, i64, Option<i64>, Option<i64>);
 
-fn marks(run: &Run) -> Vec<Mark> {
-    /// Alike to a billionth of a radian or of the run's size.
-    const FINENESS: f64 = 1e9;
-    let coarse = |number: f64| (number.abs() * FINENESS).round() as i64;
-    let n = run.knots.len();
-    let segments = run.segment_count();
-    let size = (0..segments).map(|i| run.chord(i).hypot()).fold(0.0, f64::max);
-    (0..n)
-        .map(|i| {
-            let knot = &run.knots[i];
-            let chord = if i < segments { run.chord(i).hypot() / size } else { 0.0 };
-            let off = |tangent| wrap_angle(tangent - direction(run.chord(i.min(segments - 1))));
-            let tangent = knot.tangent.map(|tangent| coarse(off(tangent)));
-            let curvature = knot.curvature.map(|curvature| coarse(curvature * size));
-            (knot.join, coarse(knot.turn), coarse(chord), tangent, curvature)
-        })
-        .collect()
+/// Alike to a billionth of a radian or of the run's size.
+fn coarse(number: f64) -> i64 {
+    (number.abs() * 1e9).round() as i64
+}
+
+/// The longest chord, and over it that which follows each knot; 0 after the last of an open run.
+fn coarse_chords(run: &Run) -> (f64, Vec<i64>) {
+    let lengths: Vec<f64> = (0..run.segment_count()).map(|i| run.chord(i).hypot()).collect();
+    let size = lengths.iter().copied().fold(0.0, f64::max);
+    let end = (!run.closed).then_some(0);
+    (size, lengths.into_iter().map(|length| coarse(length / size)).chain(end).collect())
+}
+
+fn marks(run: &Run, size: f64, chord: impl Fn(usize) -> i64) -> Vec<Mark> {
+    let last = run.segment_count() - 1;
+    let mark = |(i, knot): (usize, &RunKnot)| {
+        let off = |tangent| wrap_angle(tangent - direction(run.chord(i.min(last))));
+        let tangent = knot.tangent.map(|tangent| coarse(off(tangent)));
+        let curvature = knot.curvature.map(|curvature| coarse(curvature * size));
+        (knot.join, coarse(knot.turn), chord(i), tangent, curvature)
+    };
+    run.knots.iter().enumerate().map(mark).collect()
+}
+
+/// The list from `start` on, and around.
+fn from<T>(list: &[T], start: usize) -> impl Iterator<Item = &T> {
+    list[start..].iter().chain(&list[..start])
 }
 
 /// Where the lexicographically least rotation of a list starts, and after how many places the list

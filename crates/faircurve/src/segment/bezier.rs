@@ -5,6 +5,7 @@ use kurbo::{CubicBez, ParamCurve, PathSeg, Point, Rect};
 use num_complex::Complex64;
 
 use super::ParametricCurve;
+use crate::numeric::trig::sin_cos;
 
 /// A line, quadratic or cubic Bézier from (0, 0) to (1, 0).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,8 +28,10 @@ impl UnitBezier {
     /// The cubic whose arms, along the end tangents, have these lengths; negative ones point
     /// backwards. `start` and `end` are the directions of the tangents.
     pub fn from_arms(start: f64, end: f64, arms: [f64; 2]) -> Self {
-        let first = Complex64::from_polar(1.0, start) * arms[0];
-        let last = Complex64::from_polar(1.0, end) * arms[1];
+        let [first, last] = [(start, arms[0]), (end, arms[1])].map(|(angle, arm)| {
+            let (sin, cos) = sin_cos(angle);
+            Complex64::new(cos, sin) * arm
+        });
         let (p1, p2) = (point(first), point(1.0 - last));
         let cubic = CubicBez::new(Point::ORIGIN, p1, p2, Point::new(1.0, 0.0));
         let velocity = [first, 1.0 - first - last, last].map(|leg| leg * 3.0);
@@ -87,5 +90,14 @@ impl ParametricCurve for UnitBezier {
     fn bezier(&self, from: f64, to: f64) -> Option<PathSeg> {
         let is_whole = from == 0.0 && to == 1.0;
         Some(if is_whole { self.exact } else { self.exact.subsegment(from..to) })
+    }
+
+    /// Let the velocity's control points keep within r of the chord, 1. In the ellipse about [0, 1] in the
+    /// plane of complex u on which |u| + |1 − u| = S the Bernstein polynomials' absolute values add up to at
+    /// most S², so that the velocity isn't 0 there, and the speed is analytic, as long as rS² < 1. With
+    /// r = 0.3, the error of sixteen nodes is below 2e-16 (Bernstein's ellipse has ρ = S + √(S² − 1) = 3.35).
+    fn is_gentle(&self) -> bool {
+        const NEAR: f64 = 0.3;
+        self.velocity.iter().all(|v| (v - 1.0).norm_sqr() <= NEAR * NEAR)
     }
 }

@@ -7,6 +7,7 @@ use num_complex::Complex64;
 
 use super::UnitCurve;
 use crate::numeric::quadrature::{gauss_16, integrate};
+use crate::numeric::trig::argument;
 
 /// A curve from 0 to 1 in the complex plane by a parameter u from 0 to 1; smooth within.
 pub trait ParametricCurve: fmt::Debug + Send + Sync {
@@ -23,6 +24,12 @@ pub trait ParametricCurve: fmt::Debug + Send + Sync {
 
     /// The piece between two parameters as a Bézier, if it is one exactly.
     fn bezier(&self, from: f64, to: f64) -> Option<PathSeg>;
+
+    /// Whether it is known without a try that the curve turns by less than a radian and sixteen nodes
+    /// measure it, or any part of it, to rounding.
+    fn is_gentle(&self) -> bool {
+        false
+    }
 }
 
 /// A [`ParametricCurve`] with its arc length measured to about 1e-15.
@@ -31,6 +38,8 @@ pub struct Measured<C> {
     curve: C,
     panels: Vec<Panel>,
     length: f64,
+    /// Its direction where it ends.
+    end: f64,
     breaks: Vec<f64>,
 }
 
@@ -54,16 +63,22 @@ const MOST_PANELS: usize = 2000;
 const LARGEST: f64 = 1e100;
 
 impl<C: ParametricCurve> Measured<C> {
-    /// Measures a curve. Takes some 50 evaluations of the velocity where it is gentle.
+    /// Measures a curve. Takes sixteen evaluations of the velocity where it is gentle, some 50 where that
+    /// isn't known but found.
     pub fn new(curve: C) -> Self {
-        let mut measured = Measured { curve, panels: Vec::new(), length: 0.0, breaks: Vec::new() };
+        let start = argument(tangent(&curve, 0.0, true));
+        let mut measured =
+            Measured { curve, panels: Vec::new(), length: 0.0, end: start, breaks: Vec::new() };
         let whole = measured.arc(0.0, 1.0);
+        if measured.curve.is_gentle() {
+            measured.push(0.0, 1.0, whole);
+            measured.length = measured.length.max(1.0);
+            return measured;
+        }
         // What lengths are known to. Where a long curve nearly stands still, its velocity is a small
         // difference of large numbers: less would be noise, and panels without end.
         let noise = 4.0 * f64::EPSILON * (1.0 + whole);
-        let start = tangent(&measured.curve, 0.0, true).arg();
-        let mut direction = start;
-        measured.measure([0.0, 1.0], whole, noise, &mut direction, 50);
+        measured.measure([0.0, 1.0], whole, noise, 50);
         // What isn't a number stays so: the segment will be a straight line.
         if measured.length < 1.0 {
             measured.length = 1.0;
@@ -76,33 +91,31 @@ impl<C: ParametricCurve> Measured<C> {
         gauss_16(&|u| size(self.curve.velocity(u)), from, to)
     }
 
+    /// Appends the panel from `u` to `to`, of that length.
+    fn push(&mut self, u: f64, to: f64, length: f64) {
+        self.panels.push(Panel { u, s: self.length, direction: self.end });
+        self.length += length;
+        let (a, b) = (tangent(&self.curve, u, true), tangent(&self.curve, to, false));
+        self.end += argument(b * a.conj());
+        if to < 1.0 {
+            // Through a cusp just at the joint.
+            self.end += argument(tangent(&self.curve, to, true) * b.conj());
+        }
+    }
+
     /// Appends the panels from `u` to `to`.
-    fn measure(
-        &mut self,
-        [u, to]: [f64; 2],
-        whole: f64,
-        noise: f64,
-        direction: &mut f64,
-        depth: usize,
-    ) {
+    fn measure(&mut self, [u, to]: [f64; 2], whole: f64, noise: f64, depth: usize) {
         let middle = (u + to) / 2.0;
         let (left, right) = (self.arc(u, middle), self.arc(middle, to));
         let is_short = whole < NEGLIGIBLE * noise;
         let is_even = (left + right - whole).abs() <= noise;
         let is_enough = depth == 0 || self.panels.len() >= MOST_PANELS || !whole.is_finite();
         if is_enough || is_short || (is_even && self.turn(u, to) < MOST_TURN) {
-            self.panels.push(Panel { u, s: self.length, direction: *direction });
-            self.length += left + right;
-            let (a, b) = (tangent(&self.curve, u, true), tangent(&self.curve, to, false));
-            *direction += (b * a.conj()).arg();
-            if to < 1.0 {
-                // Through a cusp just at the joint.
-                *direction += (tangent(&self.curve, to, true) * b.conj()).arg();
-            }
+            self.push(u, to, left + right);
             return;
         }
-        self.measure([u, middle], left, noise, direction, depth - 1);
-        self.measure([middle, to], right, noise, direction, depth - 1);
+        self.measure([u, middle], left, noise, depth - 1);
+        self.measure([middle, to], right, noise, depth - 1);
     }
 
     /// The sum of the sines of what the curve turns between five places; infinite where it turns by more
@@ -187,6 +200,11 @@ fn tangent(curve: &impl ParametricCurve, u: f64, after: bool) -> Complex64 {
     if after || order % 2 == 0 { leading } else { -leading }
 }
 
+/// What isn't a number, or too large for one, as a number.
+fn written(value: f64) -> f64 {
+    if value.is_nan() { 0.0 } else { value.clamp(-LARGEST, LARGEST) }
+}
+
 /// Curvature and three derivatives by arc length from the velocity's Taylor coefficients.
 ///
 /// With v = σ·exp(iθ): v′/v = (log σ)′ + iθ′, so that κ = Im(v′/v)/σ, and d/ds = (1/σ) d/du.
@@ -221,7 +239,7 @@ fn curvature_jet(v: [Complex64; 5]) -> [f64; 4] {
         *value = series[0];
         series = over_speed([series[1], 2.0 * series[2], 3.0 * series[3], 0.0]);
     }
-    jet.map(|value| if value.is_nan() { 0.0 } else { value.clamp(-LARGEST, LARGEST) })
+    jet.map(written)
 }
 
 impl<C: ParametricCurve> UnitCurve for Measured<C> {
@@ -234,15 +252,24 @@ impl<C: ParametricCurve> UnitCurve for Measured<C> {
     }
 
     fn direction(&self, s: f64) -> f64 {
-        let u = self.parameter(s);
+        if s <= 0.0 {
+            return self.panels[0].direction;
+        } else if s >= self.length {
+            return self.end;
+        }
         let panel = self.panels[self.panel_at(|panel| panel.s <= s)];
         let start = tangent(&self.curve, panel.u, true);
-        let here = tangent(&self.curve, u, s < self.length);
-        panel.direction + (here * start.conj()).arg()
+        let here = tangent(&self.curve, self.parameter(s), true);
+        panel.direction + argument(here * start.conj())
     }
 
     fn curvature_jet(&self, s: f64) -> [f64; 4] {
         curvature_jet(self.curve.velocity_series(self.parameter(s)))
+    }
+
+    fn curvature(&self, s: f64) -> f64 {
+        let [v0, v1, ..] = self.curve.velocity_series(self.parameter(s));
+        written((v1 * v0.inv()).im / size(v0))
     }
 
     fn breaks(&self) -> &[f64] {

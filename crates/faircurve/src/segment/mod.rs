@@ -120,8 +120,17 @@ impl Segment {
     /// 1e-9 of its arc, and where the chord or a parameter isn't finite, the straight line stands
     /// in.
     pub fn spiral(start: Point, end: Point, spiral: PolynomialSpiral) -> Self {
+        Segment::spiral_along(start, end, spiral, spiral.chord())
+    }
+
+    /// The same where the spiral's own chord is known.
+    pub(crate) fn spiral_along(
+        start: Point,
+        end: Point,
+        spiral: PolynomialSpiral,
+        local: SpiralChord,
+    ) -> Self {
         let chord = end - start;
-        let local = spiral.chord();
         if chord == Vec2::ZERO || !(local.length > SHORTEST_CHORD) {
             return Segment::line(start, end);
         }
@@ -317,7 +326,16 @@ impl Segment {
 
     /// Curvature at arc length `s`, in 1/units.
     pub fn curvature(&self, s: f64) -> f64 {
-        self.curvature_jet(s)[0]
+        let (curvature, unit) = match &self.shape {
+            Shape::Line => return 0.0,
+            Shape::Spiral(spiral) => (curvature_jet(spiral.k, self.local(s))[0], self.length),
+            Shape::Unit(piece) => {
+                let curvature = piece.curve.curvature(self.place_on(piece, s));
+                (if piece.backwards { -curvature } else { curvature }, self.scale(piece))
+            }
+            Shape::Elastica(_) | Shape::Chain(_) => return self.curvature_jet(s)[0],
+        };
+        (curvature * (1.0 / unit)).clamp(f64::MIN, f64::MAX)
     }
 
     /// Curvature at arc length `s` and its first three derivatives by arc length, the j-th in

@@ -1,7 +1,10 @@
 //! Polynomial spirals: curvature a cubic polynomial of arc length.
 
+use num_complex::Complex64;
+
 use crate::frame::ChordAngles;
 use crate::numeric::spiro_integral::{angle, spiro_integral, sub_parameters};
+use crate::numeric::trig::argument;
 
 /// A curve whose curvature is a cubic polynomial of arc length (thesis section 7.3), scaled to arc
 /// length 1: k₀ … k₃ of eq. 8.1, curvature and its derivatives at the middle. The Euler spiral is
@@ -22,6 +25,13 @@ pub struct SpiralChord {
     pub direction: f64,
 }
 
+impl SpiralChord {
+    /// The chord that is this integral.
+    pub(crate) fn new(integral: Complex64) -> Self {
+        SpiralChord { length: integral.norm_sqr().sqrt(), direction: argument(integral) }
+    }
+}
+
 impl PolynomialSpiral {
     /// The spiral of these parameters.
     pub const fn new(k: [f64; 4]) -> Self {
@@ -30,8 +40,7 @@ impl PolynomialSpiral {
 
     /// Its chord, to the accuracy of [`spiro_integral`].
     pub fn chord(&self) -> SpiralChord {
-        let chord = spiro_integral(self.k);
-        SpiralChord { length: chord.norm_sqr().sqrt(), direction: chord.arg() }
+        SpiralChord::new(spiro_integral(self.k))
     }
 
     /// The end tangents relative to the chord (eq. 8.19–8.20), not wrapped: their sum is the whole

@@ -27,6 +27,11 @@ pub trait UnitCurve: fmt::Debug + Send + Sync {
     /// at cusps.
     fn curvature_jet(&self, s: f64) -> [f64; 4];
 
+    /// The first of them.
+    fn curvature(&self, s: f64) -> f64 {
+        self.curvature_jet(s)[0]
+    }
+
     /// Arc lengths in (0, length), ascending, at which the curve isn't smooth or nearly so: joints,
     /// cusps, sharp bends.
     fn breaks(&self) -> &[f64];

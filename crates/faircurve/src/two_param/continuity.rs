@@ -2,12 +2,15 @@
 
 use std::f64::consts::PI;
 
+use num_complex::Complex64;
+
 use super::curvature_map::{CurvatureMap, EndCurvatures, SegmentContext};
 use super::shape::SegmentEnds;
 use super::tangents::{TangentRule, Tangents, context, ignored_curvature};
 use crate::frame::{ChordAngles, EndCurvature, circle_tangent, direction, wrap_angle};
 use crate::numeric::block_tridiagonal::BlockTridiagonal;
 use crate::numeric::newton::{Limits, System, newton};
+use crate::numeric::trig::argument;
 use crate::plan::Run;
 use crate::spline::{Adaptation, Effort, Stage};
 use crate::tolerance::SOLVED;
@@ -396,10 +399,8 @@ impl TangentSystem<'_> {
                 let (cl, cr) = (self.contexts[l].chord.sqrt(), self.contexts[r].chord.sqrt());
                 let v = Turned::new(self.responses[l].value[1], cl, cr);
                 let w = Turned::new(self.responses[r].value[0], cr, cl);
-                let [l0, l1] =
-                    self.responses[l].by_angle[1].map(|by| v.angle_by(&Turned::new(by, cl, cr)));
-                let [r0, r1] =
-                    self.responses[r].by_angle[0].map(|by| w.angle_by(&Turned::new(by, cr, cl)));
+                let [l0, l1] = v.angles_by(self.responses[l].by_angle[1], cl, cr);
+                let [r0, r1] = w.angles_by(self.responses[r].by_angle[0], cr, cl);
                 let (value, [dv, dw]) = v.straightened_angle_to(&w, self.order_at(l, r));
                 Row { value, lower: -l0 * dv, diagonal: l1 * dv + r0 * dw, upper: r1 * dw * next }
             }
@@ -512,8 +513,7 @@ impl TangentSystem<'_> {
         let response = &self.responses[segment];
         let own = Turned::new(response.value[end], 1.0, 1.0);
         let wanted = Turned { num: wanted * self.contexts[segment].chord, den: 1.0 };
-        let by = response.by_angle[end].map(|by| own.angle_by(&Turned::new(by, 1.0, 1.0)));
-        (wanted.angle_to(&own), by)
+        (wanted.angle_to(&own), own.angles_by(response.by_angle[end], 1.0, 1.0))
     }
 }
 
@@ -577,8 +577,10 @@ impl Turned {
     /// The angle to turn by to come to the other vector: zero where curvatures agree, whatever
     /// their size, and half a turn off where a curve would arrive forwards and leave backwards.
     fn angle_to(&self, other: &Turned) -> f64 {
-        (self.den * other.num - self.num * other.den)
-            .atan2(self.den * other.den + self.num * other.num)
+        argument(Complex64::new(
+            self.den * other.den + self.num * other.num,
+            self.den * other.num - self.num * other.den,
+        ))
     }
 
     /// The same for curvatures that leave zero with some power: the angle between their roots of
@@ -604,9 +606,14 @@ impl Turned {
         (roots[1].atan() - roots[0].atan(), more)
     }
 
-    /// Derivative of the vector's angle.
-    fn angle_by(&self, change: &Turned) -> f64 {
+    /// How the vector's angle changes when the curvature it stands for changes by either of these.
+    fn angles_by(&self, [first, second]: [EndCurvature; 2], own: f64, other: f64) -> [f64; 2] {
         let squared = self.den * self.den + self.num * self.num;
-        (self.den * change.num - self.num * change.den) / squared.max(f64::MIN_POSITIVE)
+        let reciprocal = 1.0 / squared.max(f64::MIN_POSITIVE);
+        let by = |change: EndCurvature| {
+            let Turned { num, den } = Turned::new(change, own, other);
+            (self.den * num - self.num * den) * reciprocal
+        };
+        [by(first), by(second)]
     }
 }

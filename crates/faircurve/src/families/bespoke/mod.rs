@@ -87,11 +87,11 @@ struct Arm {
 
 impl Arm {
     /// Bespoke section 3, with the cosine that its text prints as a sine (`docs/errata.md`).
-    fn new(own: f64, other: f64) -> Arm {
-        let (sin_2, cos_2) = sin_cos(2.0 * other);
-        let inner = 2.0 * other - 0.4 * sin_2;
+    fn new(own: &Tangent, other: &Tangent) -> Arm {
+        let (sin_2, cos_2) = (2.0 * other.sin * other.cos, 1.0 - 2.0 * other.sin * other.sin);
+        let inner = 2.0 * other.angle - 0.4 * sin_2;
         let (sin_inner, cos_inner) = sin_cos(inner);
-        let theta_a = own - 0.3 * sin_inner;
+        let theta_a = own.angle - 0.3 * sin_inner;
         let by_other = -0.3 * cos_inner * (2.0 - 0.8 * cos_2);
         let (sin, cos) = sin_cos(theta_a);
         // cos 3x = 4 cos³ x − 3 cos x, so that the arm is exactly odd about π/2.
@@ -118,12 +118,30 @@ impl Arm {
     }
 }
 
+/// A chord angle.
+#[derive(Clone, Copy, Debug)]
+struct Tangent {
+    angle: f64,
+    sin: f64,
+    cos: f64,
+}
+
+impl Tangent {
+    /// Those at the start and at the end.
+    fn both(ChordAngles { theta0, theta1 }: ChordAngles) -> [Tangent; 2] {
+        [theta0, theta1].map(|angle| {
+            let (sin, cos) = sin_cos(angle);
+            Tangent { angle, sin, cos }
+        })
+    }
+}
+
 /// Both arms, at the start and at the end.
-fn arms(ChordAngles { theta0, theta1 }: ChordAngles, context: &SegmentContext) -> [Arm; 2] {
+fn arms([start, end]: &[Tangent; 2], context: &SegmentContext) -> [Arm; 2] {
     let settle = |arm: Arm, given: bool| if given { arm.forwards() } else { arm };
     [
-        settle(Arm::new(theta0, theta1), context.given_direction[0]),
-        settle(Arm::new(theta1, theta0), context.given_direction[1]),
+        settle(Arm::new(start, end), context.given_direction[0]),
+        settle(Arm::new(end, start), context.given_direction[1]),
     ]
 }
 
@@ -131,11 +149,14 @@ impl CurvatureMap for BespokeCubics {
     /// Of the cubic with arms a and b on the unit chord: κ = (2/3)(sin θ₀ − b sin(θ₀ + θ₁))/(a·|a|)
     /// at the start, and the mirror image at the end.
     fn curvatures(&self, angles: ChordAngles, context: &SegmentContext) -> EndCurvatures {
-        let [start, end] = arms(angles, context);
-        let (sin_t, cos_t) = sin_cos(angles.turning());
+        let tangents = Tangent::both(angles);
+        let [first, last] = &tangents;
+        let [start, end] = arms(&tangents, context);
+        // Of the sum of both angles.
+        let sin_t = first.sin * last.cos + first.cos * last.sin;
+        let cos_t = first.cos * last.cos - first.sin * last.sin;
         // Numerator and denominator, and their derivatives by the angle here and the other one.
-        let at_end = |own: f64, here: &Arm, there: &Arm| {
-            let (sin, cos) = sin_cos(own);
+        let at_end = |&Tangent { sin, cos, .. }: &Tangent, here: &Arm, there: &Arm| {
             let scale = 2.0 / 3.0;
             let value = EndCurvature {
                 num: scale * (sin - there.length * sin_t),
@@ -152,8 +173,8 @@ impl CurvatureMap for BespokeCubics {
             };
             (value, by_own, by_other)
         };
-        let (start_value, start_by_0, start_by_1) = at_end(angles.theta0, &start, &end);
-        let (end_value, end_by_1, end_by_0) = at_end(angles.theta1, &end, &start);
+        let (start_value, start_by_0, start_by_1) = at_end(first, &start, &end);
+        let (end_value, end_by_1, end_by_0) = at_end(last, &end, &start);
         EndCurvatures {
             value: [start_value, end_value],
             by_angle: [[start_by_0, start_by_1], [end_by_0, end_by_1]],
@@ -172,8 +193,9 @@ impl CurvatureMap for BespokeCubics {
 impl SegmentShape for BespokeCubics {
     fn place(&self, start: Point, end: Point, ends: &SegmentEnds) -> Segment {
         let ChordAngles { theta0, theta1 } = ends.angles;
-        let [a, b] = arms(ends.angles, &ends.context).map(|arm| arm.length);
-        let is_straight = a * theta0.sin() == 0.0 && b * theta1.sin() == 0.0;
+        let tangents = Tangent::both(ends.angles);
+        let [a, b] = arms(&tangents, &ends.context).map(|arm| arm.length);
+        let is_straight = a * tangents[0].sin == 0.0 && b * tangents[1].sin == 0.0;
         if is_straight && theta0.abs() < FRAC_PI_2 && theta1.abs() < FRAC_PI_2 {
             return Segment::line(start, end);
         }

@@ -56,9 +56,13 @@ fn the_map_is_periodic() {
 
 #[test]
 fn arms_are_a_third_of_the_chord_on_a_line_and_vanish_at_a_right_angle() {
-    assert!((Arm::new(0.0, 0.0).length - 1.0 / 3.0).abs() < 1e-16);
-    assert!(Arm::new(FRAC_PI_2, 0.0).length.abs() < 1e-16);
-    assert!(Arm::new(2.0, 0.0).length < 0.0);
+    let arm = |own: f64, other: f64| {
+        let [own, other] = Tangent::both(ChordAngles::new(own, other));
+        Arm::new(&own, &other).length
+    };
+    assert!((arm(0.0, 0.0) - 1.0 / 3.0).abs() < 1e-16);
+    assert!(arm(FRAC_PI_2, 0.0).abs() < 1e-16);
+    assert!(arm(2.0, 0.0) < 0.0);
 }
 
 /// An oracle: curvature of the placed Bézier by its control points, as kurbo has it.

@@ -14,9 +14,10 @@ use crate::four_param::spline::ConstraintSpline;
 use crate::frame::{ChordAngles, EndCurvature};
 use crate::numeric::roots::horner;
 use crate::numeric::spiro_integral::{SpiroMoments, spiro_moments};
+use crate::numeric::trig::argument;
 use crate::outline::Join;
 use crate::plan::Run;
-use crate::segment::{PolynomialSpiral, Segment};
+use crate::segment::{PolynomialSpiral, Segment, SpiralChord};
 use crate::spline::{Effort, RunSolution, Spline};
 use crate::tolerance::LOOP;
 use crate::two_param::continuity::{Continuity, NaturalEnd};
@@ -168,8 +169,11 @@ impl CurvatureMap for EulerSpirals {
 
 impl SegmentShape for EulerSpirals {
     fn place(&self, start: Point, end: Point, ends: &SegmentEnds) -> Segment {
-        match fit_euler(ends.angles) {
-            Ok(spiral) => Segment::spiral(start, end, spiral),
+        match fit(ends.angles) {
+            Ok(fit) => {
+                let chord = SpiralChord::new(fit.moments.integral());
+                Segment::spiral_along(start, end, fit.spiral(), chord)
+            }
             Err(_) => Segment::line(start, end),
         }
     }
@@ -217,7 +221,7 @@ impl std::error::Error for FitError {}
 /// # Ok::<(), FitError>(())
 /// ```
 pub fn fit_euler(angles: ChordAngles) -> Result<PolynomialSpiral, FitError> {
-    fit(angles).map(|fit| PolynomialSpiral::new([fit.k0, fit.k1, 0.0, 0.0]))
+    fit(angles).map(|fit| fit.spiral())
 }
 
 /// A fitted spiral with the moments M₀, M₁, M₂ at the solution; the others may be those nearby.
@@ -255,7 +259,7 @@ fn fit(angles: ChordAngles) -> Result<Fit, FitError> {
         let chord = moments.integral();
         let inverse = chord.inv();
         let (r2, r4) = (moments.0[2] * inverse, moments.0[4] * inverse);
-        let error = difference + 2.0 * chord.arg() - k1 / 4.0;
+        let error = difference + 2.0 * argument(chord) - k1 / 4.0;
         let slope = r2.re - 0.25;
         let bend = -(r4 - r2 * r2).im / 2.0;
         let newton = -error / slope;
@@ -301,6 +305,10 @@ fn estimate(angles: ChordAngles) -> f64 {
 }
 
 impl Fit {
+    fn spiral(&self) -> PolynomialSpiral {
+        PolynomialSpiral::new([self.k0, self.k1, 0.0, 0.0])
+    }
+
     /// End curvatures for unit chord, c·(k₀ ∓ k₁/2), and their derivatives by the end tangents.
     fn curvatures(&self) -> EndCurvatures {
         let m0 = self.moments.integral();

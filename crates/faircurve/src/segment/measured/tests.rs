@@ -34,6 +34,28 @@ fn lengths_are_those_of_another_program() {
     }
 }
 
+/// Velocities all around the limit, so that the worst lies among them, and whole arcs as parts of them.
+#[test]
+fn sixteen_nodes_measure_what_is_gentle() {
+    let at = |turn: i32| Complex64::from_polar(0.3 - 1e-9, f64::from(turn) * PI / 6.0);
+    for (i, j) in (0..12).flat_map(|i| (0..12).map(move |j| (i, j))) {
+        // The three add up to three times the chord.
+        let mut legs = [at(i), at(j), -at(i) - at(j)];
+        for _ in 0..3 {
+            legs.rotate_left(1);
+            let size = legs.iter().fold(0.3, |size: f64, leg| size.max(leg.norm()));
+            let [first, _, last] = legs.map(|leg| (1.0 + leg * (0.3 - 1e-9) / size) / 3.0);
+            let curve = measured((first.re, first.im), (1.0 - last.re, -last.im));
+            assert!(curve.curve.is_gentle() && curve.panels.len() == 1);
+            for to in [1.0, 0.7, 0.31] {
+                let stops: Vec<f64> = (0..=32).map(|i| to * f64::from(i) / 32.0).collect();
+                let fine: f64 = stops.windows(2).map(|ends| curve.arc(ends[0], ends[1])).sum();
+                assert!((curve.arc(0.0, to) - fine).abs() < 5e-16, "{first} {last} {to}");
+            }
+        }
+    }
+}
+
 #[test]
 fn arc_length_and_parameter_are_inverse() {
     for curve in samples() {
