@@ -13,6 +13,9 @@
 use std::f64::consts::{PI, TAU};
 
 use kurbo::{Point, Vec2};
+use num_complex::Complex64;
+
+use crate::numeric::trig::argument;
 
 /// End tangents of a segment relative to its chord, in radians (eq. 8.19–8.20).
 ///
@@ -96,30 +99,38 @@ pub fn wrap_angle(angle: f64) -> f64 {
 
 /// The direction of a vector in radians, in (−π, π].
 pub fn direction(vector: Vec2) -> f64 {
-    // −π from a negative zero is the same direction as π; one of them must be the answer.
-    let angle = vector.y.atan2(vector.x);
+    one_half_turn(vector.y.atan2(vector.x))
+}
+
+/// −π from a negative zero is the same direction as π; one of them must be the answer.
+fn one_half_turn(angle: f64) -> f64 {
     if angle == -PI { PI } else { angle }
 }
 
 /// The turning angle from one vector to another, in (−π, π], without the cancellation of
 /// subtracting two directions.
 pub fn turning(from: Vec2, to: Vec2) -> f64 {
-    direction(Vec2::new(from.dot(to), from.cross(to)))
+    one_half_turn(argument(Complex64::new(from.dot(to), from.cross(to))))
 }
 
 /// The tangent direction at `middle` of the circle through three points (of the straight line, if
 /// they are collinear); thesis section 4.10.
 pub fn circle_tangent(before: Point, middle: Point, after: Point) -> f64 {
+    direction(along_circle(before, middle, after))
+}
+
+/// A vector in that direction.
+pub(crate) fn along_circle(before: Point, middle: Point, after: Point) -> Vec2 {
     let (incoming, outgoing) = (middle - before, after - middle);
     // The inscribed-angle theorem: theta1 of the incoming chord is half the arc over it, and the
     // half arcs of both chords sum to the turning angle. In complex numbers, with both chords
     // inverted at the knot, the tangent is a sum free of cases.
     let tangent = incoming / incoming.hypot2() + outgoing / outgoing.hypot2();
     if tangent.hypot2() > 0.0 && tangent.is_finite() {
-        direction(tangent)
+        tangent
     } else {
         // A hairpin that returns to where it came from: any perpendicular will do.
-        direction(Vec2::new(-incoming.y, incoming.x))
+        Vec2::new(-incoming.y, incoming.x)
     }
 }
 

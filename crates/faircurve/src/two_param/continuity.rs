@@ -7,7 +7,7 @@ use num_complex::Complex64;
 use super::curvature_map::{CurvatureMap, EndCurvatures, SegmentContext};
 use super::shape::SegmentEnds;
 use super::tangents::{TangentRule, Tangents, context, ignored_curvature};
-use crate::frame::{ChordAngles, EndCurvature, circle_tangent, direction, wrap_angle};
+use crate::frame::{ChordAngles, EndCurvature, along_circle, direction, turning, wrap_angle};
 use crate::numeric::block_tridiagonal::BlockTridiagonal;
 use crate::numeric::newton::{Limits, System, newton};
 use crate::numeric::trig::argument;
@@ -212,8 +212,7 @@ impl<'a> TangentSystem<'a> {
         for i in (0..n).filter(|&i| interior(i)) {
             let (before, after) = ((i + n - 1) % n, (i + 1) % n);
             let (a, b, c) = (run.knots[before].point, run.knots[i].point, run.knots[after].point);
-            let tangent = wrap_angle(direction(run.chord(i)) - circle_tangent(a, b, c));
-            self.tangents[i] = tangent;
+            self.tangents[i] = turning(along_circle(a, b, c), run.chord(i));
         }
         if !run.closed {
             self.tangents[0] = if n > 2 { self.turns[1] - self.tangents[1] } else { 0.0 };
