@@ -146,6 +146,8 @@ struct TangentSystem<'a> {
     tangents: Vec<f64>,
     closed: bool,
     responses: Vec<EndCurvatures>,
+    /// The angles that the responses are for.
+    answered: Vec<ChordAngles>,
     mismatch: Vec<f64>,
     rows: Vec<Row>,
     /// Knots whose equation is no longer asked for; they keep their tangents.
@@ -196,6 +198,7 @@ impl<'a> TangentSystem<'a> {
             tangents: vec![0.0; n],
             closed: run.closed,
             responses: Vec::with_capacity(segments),
+            answered: Vec::with_capacity(segments),
             mismatch: vec![0.0; n],
             rows: vec![Row::UNASKED; n],
             given_up: vec![false; n],
@@ -245,6 +248,7 @@ impl<'a> TangentSystem<'a> {
             tangents: self.tangents.clone(),
             closed: self.closed,
             responses: Vec::with_capacity(self.contexts.len()),
+            answered: Vec::with_capacity(self.contexts.len()),
             mismatch: self.mismatch.clone(),
             rows: self.rows.clone(),
             given_up: self.given_up.clone(),
@@ -334,6 +338,30 @@ impl<'a> TangentSystem<'a> {
         let theta1 =
             if is_last { self.tangents[end] } else { self.turns[end] - self.tangents[end] };
         ChordAngles::new(self.tangents[segment], theta1)
+    }
+
+    /// The end curvatures of every segment. Where angles have hardly changed since they were last computed,
+    /// the derivatives tell what they are now.
+    fn evaluate(&mut self) {
+        /// Radians over which smooth maps differ from linear ones by less than rounding.
+        const NEAR: f64 = 1e-10;
+        let most = if self.map.order() == 1.0 { NEAR } else { 0.0 };
+        for segment in 0..self.contexts.len() {
+            let angles = self.angles(segment);
+            if let Some(known) = self.answered.get_mut(segment) {
+                let change = [angles.theta0 - known.theta0, angles.theta1 - known.theta1];
+                let response = &mut self.responses[segment];
+                if change[0].abs().max(change[1].abs()) <= most {
+                    response.turn(change);
+                } else {
+                    *response = self.map.curvatures(angles, &self.contexts[segment]);
+                }
+                *known = angles;
+            } else {
+                self.responses.push(self.map.curvatures(angles, &self.contexts[segment]));
+                self.answered.push(angles);
+            }
+        }
     }
 
     /// Brings both angles at a knot within the family's limit.
@@ -518,11 +546,7 @@ impl TangentSystem<'_> {
 
 impl System<1> for TangentSystem<'_> {
     fn residual(&mut self) -> f64 {
-        self.responses.clear();
-        for segment in 0..self.contexts.len() {
-            let response = self.map.curvatures(self.angles(segment), &self.contexts[segment]);
-            self.responses.push(response);
-        }
+        self.evaluate();
         let mut residual = 0.0f64;
         for i in 0..self.rows.len() {
             let mut row = self.row(i);

@@ -31,6 +31,18 @@ pub struct EndCurvatures {
     pub by_angle: [[EndCurvature; 2]; 2],
 }
 
+impl EndCurvatures {
+    /// What they become, to first order, when the tangents turn by so much.
+    pub(crate) fn turn(&mut self, change: [f64; 2]) {
+        for (value, by_angle) in self.value.iter_mut().zip(&self.by_angle) {
+            for (by, change) in by_angle.iter().zip(change) {
+                value.num += by.num * change;
+                value.den += by.den * change;
+            }
+        }
+    }
+}
+
 /// From end tangents to end curvatures.
 pub trait CurvatureMap: fmt::Debug + Send + Sync {
     /// End curvatures for angles within ±[`limit`](Self::limit); finite numbers always.

@@ -143,3 +143,18 @@ fn given_directions_are_met() {
         assert!(off.cos() > 1.0 - 1e-15, "{direction} {off}");
     }
 }
+
+/// To first order: what is left is the square of the change, times second derivatives of a few units.
+#[test]
+fn turned_curvatures_are_those_of_the_turned_tangents() {
+    let change = [1e-6, -2e-6];
+    for (theta0, theta1) in ANGLES.into_iter().flat_map(|a| ANGLES.map(|b| (a, b))) {
+        let mut turned = map(theta0, theta1);
+        turned.turn(change);
+        let exact = map(theta0 + change[0], theta1 + change[1]);
+        for (turned, exact) in turned.value.iter().zip(exact.value) {
+            let off = (turned.num - exact.num).abs().max((turned.den - exact.den).abs());
+            assert!(off < 1e-11, "{theta0} {theta1}: {off:e}");
+        }
+    }
+}
