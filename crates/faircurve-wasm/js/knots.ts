@@ -17,9 +17,13 @@ export function joinName(code: number): string {
   return JOINS[code] ?? "corner";
 }
 
-/** The rows of all knots. `place` starts messages: `contour 2, `. */
+let room = new Float64Array(ROW * 64);
+
+/** The rows of all knots, until the next call. `place` starts messages: `contour 2, `. */
 export function knotRows(knots: readonly Knot[], place = ""): Float64Array {
-  const rows = new Float64Array(ROW * knots.length).fill(NaN);
+  const size = ROW * knots.length;
+  if (size > room.length) room = new Float64Array(2 * size);
+  const rows = room.subarray(0, size).fill(NaN);
   knots.forEach((knot, index) => writeRow(rows, ROW * index, knot, () => `${place}knot ${index}: `));
   return rows;
 }
