@@ -33,26 +33,24 @@ function sizes() {
   console.log(`its JavaScript  ${kB(["formats.js"])}`);
 }
 
-/**
- * µs of one call of each: the lower quartile of many, in turns, so that what the machine does meanwhile meets them
- * all, and mostly not at all.
- */
-function times(calls) {
+/** µs of each call, for 250 ms of every one, in turns, so that what the machine does meanwhile meets them all. */
+function rounds(calls) {
   const taken = calls.map(() => []);
-  const end = performance.now() + 500 * calls.length;
-  // Half of the rounds come before, while the engine still compiles.
-  for (let warm = true, round = 0; warm || round < 20 || performance.now() < end; round++) {
+  const end = performance.now() + 250 * calls.length;
+  for (let round = 0; round < 20 || performance.now() < end; round++) {
     calls.forEach((call, i) => {
       const start = performance.now();
       call();
       taken[i].push(1000 * (performance.now() - start));
     });
-    if (warm && round >= 20 && performance.now() > end - 250 * calls.length) {
-      warm = false;
-      taken.forEach((list) => (list.length = 0));
-    }
   }
-  return taken.map((list) => quantile(list, 0.25));
+  return taken;
+}
+
+/** µs of one call of each: the lower quartile, which a busy machine changes least. */
+function times(calls) {
+  rounds(calls); // while the engine still compiles
+  return rounds(calls).map((list) => quantile(list, 0.25));
 }
 
 function native(counts) {

@@ -4,7 +4,7 @@ use kurbo::{Point, Vec2};
 use num_complex::Complex64;
 
 use crate::numeric::roots::monotone_root;
-use crate::numeric::trig::sin_cos;
+use crate::numeric::trig::cis;
 use crate::segment::{Segment, Shape};
 
 use super::series::Series;
@@ -291,13 +291,9 @@ impl Piece {
         let [p0, p1, p2, end] = series.z.pairs(&[PAIRS[0], PAIRS[1], PAIRS[2], 1.0]);
         let mut tangents = [Complex64::ZERO; NODES];
         for (tangent, x) in tangents.iter_mut().zip(PLACES) {
-            let (sin, cos) = sin_cos(series.angle(x));
-            *tangent = Complex64::new(cos, sin);
+            *tangent = cis(series.angle(x));
         }
-        let end_tangents = [-1.0, 1.0].map(|x| {
-            let (sin, cos) = sin_cos(series.angle(x));
-            Complex64::new(cos, sin)
-        });
+        let end_tangents = [-1.0, 1.0].map(|x| cis(series.angle(x)));
         Piece {
             from,
             to,

@@ -62,6 +62,7 @@ pub fn newton_while<const B: usize>(
     const DONE: f64 = 4e-15;
     /// Below this, it has where the last step was short: what is left of it is rounding.
     const NEARLY_DONE: f64 = 1e-13;
+    /// Radians.
     const SHORT: f64 = 1e-7;
     /// From here on a residual that stops falling has met its rounding errors.
     const CLOSE: f64 = 1e-10;

@@ -13,7 +13,7 @@
 use num_complex::Complex64;
 
 use super::gauss_legendre::{GAUSS_8, GAUSS_12, GAUSS_16, GAUSS_24, GAUSS_32, PairedRule};
-use super::trig::sin_cos;
+use super::trig::{cis, sin_cos};
 
 /// The moments M₀ … M₄ of e^{iθ(s)} over s ∈ [−½, ½].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -227,8 +227,7 @@ fn panels(k: [f64; 4], count: usize) -> SpiroMoments {
     for panel in 0..count {
         let middle = (panel as f64 + 0.5) * width - 0.5;
         let local = large_panel(&GAUSS_32, sub_parameters(k, middle, width));
-        let (sin, cos) = sin_cos(angle(k, middle));
-        let turn = Complex64::new(cos, sin) * width;
+        let turn = cis(angle(k, middle)) * width;
         // s = middle + width·u: the binomial expansion of sʲ, by repeated multiplication.
         let mut shifted = local.0;
         for j in 0..5 {
@@ -273,8 +272,7 @@ pub fn sub_parameters(k: [f64; 4], middle: f64, width: f64) -> [f64; 4] {
 #[inline]
 pub fn spiro_integral_between(k: [f64; 4], from: f64, to: f64) -> Complex64 {
     let (middle, width) = ((from + to) / 2.0, to - from);
-    let (sin, cos) = sin_cos(angle(k, middle));
-    spiro_integral(sub_parameters(k, middle, width)) * Complex64::new(cos, sin) * width
+    spiro_integral(sub_parameters(k, middle, width)) * cis(angle(k, middle)) * width
 }
 
 #[cfg(test)]

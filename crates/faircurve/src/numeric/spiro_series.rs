@@ -19,7 +19,7 @@
 use num_complex::Complex64;
 
 use super::spiro_integral::{angle, sub_parameters};
-use super::trig::sin_cos;
+use super::trig::cis;
 
 /// The spiro integral of eq. 8.1 by the polynomial that keeps the terms of e^{iθ} through
 /// s^`ORDER`; `ORDER` is even, from 2 to 16 (checked when compiled).
@@ -96,8 +96,7 @@ pub fn spiro_series_subdivided<const ORDER: usize>(k: [f64; 4], pieces: usize) -
     let mut sum = Complex64::ZERO;
     for piece in 0..pieces {
         let middle = (piece as f64 + 0.5) * width - 0.5;
-        let (sin, cos) = sin_cos(angle(k, middle));
-        sum += Complex64::new(cos, sin) * spiro_series::<ORDER>(sub_parameters(k, middle, width));
+        sum += cis(angle(k, middle)) * spiro_series::<ORDER>(sub_parameters(k, middle, width));
     }
     sum * width
 }

@@ -62,6 +62,13 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     (f64::from_bits(sine.to_bits() ^ sign), f64::from_bits(cosine.to_bits() ^ sign))
 }
 
+/// e^{i·angle}, with the errors of [`sin_cos`].
+#[inline(always)]
+pub(crate) fn cis(angle: f64) -> Complex64 {
+    let (sin, cos) = sin_cos(angle);
+    Complex64::new(cos, sin)
+}
+
 /// The argument of `z`, to 3e-16, sooner where it is small.
 #[inline]
 pub(crate) fn argument(z: Complex64) -> f64 {

@@ -5,7 +5,7 @@ use kurbo::{CubicBez, ParamCurve, PathSeg, Point, Rect};
 use num_complex::Complex64;
 
 use super::ParametricCurve;
-use crate::numeric::trig::sin_cos;
+use crate::numeric::trig::cis;
 
 /// A line, quadratic or cubic Bézier from (0, 0) to (1, 0).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,10 +28,7 @@ impl UnitBezier {
     /// The cubic whose arms, along the end tangents, have these lengths; negative ones point
     /// backwards. `start` and `end` are the directions of the tangents.
     pub fn from_arms(start: f64, end: f64, arms: [f64; 2]) -> Self {
-        let [first, last] = [(start, arms[0]), (end, arms[1])].map(|(angle, arm)| {
-            let (sin, cos) = sin_cos(angle);
-            Complex64::new(cos, sin) * arm
-        });
+        let [first, last] = [(start, arms[0]), (end, arms[1])].map(|(angle, arm)| cis(angle) * arm);
         let (p1, p2) = (point(first), point(1.0 - last));
         let cubic = CubicBez::new(Point::ORIGIN, p1, p2, Point::new(1.0, 0.0));
         let velocity = [first, 1.0 - first - last, last].map(|leg| leg * 3.0);

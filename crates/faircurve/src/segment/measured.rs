@@ -72,13 +72,12 @@ impl<C: ParametricCurve> Measured<C> {
         let whole = measured.arc(0.0, 1.0);
         if measured.curve.is_gentle() {
             measured.push(0.0, 1.0, whole);
-            measured.length = measured.length.max(1.0);
-            return measured;
+        } else {
+            // What lengths are known to. Where a long curve nearly stands still, its velocity is a small
+            // difference of large numbers: less would be noise, and panels without end.
+            let noise = 4.0 * f64::EPSILON * (1.0 + whole);
+            measured.measure([0.0, 1.0], whole, noise, 50);
         }
-        // What lengths are known to. Where a long curve nearly stands still, its velocity is a small
-        // difference of large numbers: less would be noise, and panels without end.
-        let noise = 4.0 * f64::EPSILON * (1.0 + whole);
-        measured.measure([0.0, 1.0], whole, noise, 50);
         // What isn't a number stays so: the segment will be a straight line.
         if measured.length < 1.0 {
             measured.length = 1.0;

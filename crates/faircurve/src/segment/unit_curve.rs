@@ -27,7 +27,7 @@ pub trait UnitCurve: fmt::Debug + Send + Sync {
     /// at cusps.
     fn curvature_jet(&self, s: f64) -> [f64; 4];
 
-    /// The first of them.
+    /// Curvature alone.
     fn curvature(&self, s: f64) -> f64 {
         self.curvature_jet(s)[0]
     }

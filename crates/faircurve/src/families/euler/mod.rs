@@ -284,7 +284,8 @@ fn fit(angles: ChordAngles) -> Result<Fit, FitError> {
 
 /// k₁ as far as it is known without solving, T = θ₀ + θ₁ and D = θ₁ − θ₀: up to angles of 2.2 the
 /// polynomial D·P(T², D²), P of degree 4, that is nearest to 20,000 solutions (least squares, reweighted
-/// by Lawson's rule until the largest errors were alike), off by 1.5e-5 at most; beyond, thesis figure 8.3 (the text above it has a slip): 6D(1 − x³), x = |T|/2π.
+/// by Lawson's rule until the largest errors were alike), off by 1.5e-5 at most; beyond, thesis figure
+/// 8.3 (the text above it has a slip): 6D(1 − x³), x = |T|/2π.
 fn estimate(angles: ChordAngles) -> f64 {
     /// The coefficients of powers of T², for each power of D².
     const P: [&[f64]; 5] = [

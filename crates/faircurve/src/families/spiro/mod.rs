@@ -12,12 +12,11 @@ use crate::four_param::family::{Ends, FourParamFamily, Response};
 use crate::four_param::spline::ConstraintSpline;
 use crate::frame::ChordAngles;
 use crate::numeric::spiro_integral::{
-    SpiroMoments, rough_spiro_moments, spiro_integral, spiro_moments,
+    SpiroMoments, curvature_jet, rough_spiro_moments, spiro_integral, spiro_moments,
 };
-use crate::numeric::trig::argument;
 use crate::outline::Join;
 use crate::plan::Run;
-use crate::segment::{PolynomialSpiral, Segment};
+use crate::segment::{PolynomialSpiral, Segment, SpiralChord};
 use crate::spline::{Effort, RunSolution, Spline};
 
 pub use segments::{SpiroSegments, fit_spiral};
@@ -115,15 +114,14 @@ impl FourParamFamily for PolynomialSpirals {
 }
 
 /// The ends of the segment with these parameters and this spiro integral.
-fn ends([k0, k1, k2, k3]: [f64; 4], integral: Complex64) -> Ends {
-    let c = integral.norm_sqr().sqrt();
-    let psi = argument(integral);
+fn ends(k: [f64; 4], integral: Complex64) -> Ends {
+    let SpiralChord { length: c, direction: psi } = SpiralChord::new(integral);
+    let [k0, k1, k2, k3] = k;
     // Of the angle from the middle, what is the same on both sides, and what isn't.
     let (even, odd) = (k0 / 2.0 + k2 / 48.0, k1 / 8.0 + k3 / 384.0);
     // κ, κ′, κ″ at both ends for arc length 1.
-    let [kappa0, kappa1] = [-0.5, 0.5].map(|s| k0 + s * (k1 + s * (k2 / 2.0 + s * k3 / 6.0)));
-    let [first0, first1] = [-0.5, 0.5].map(|s| k1 + s * (k2 + s * k3 / 2.0));
-    let [second0, second1] = [-0.5, 0.5].map(|s| k2 + s * k3);
+    let [kappa0, first0, second0, _] = curvature_jet(k, -0.5);
+    let [kappa1, first1, second1, _] = curvature_jet(k, 0.5);
     let (c2, c3) = (c * c, c * c * c);
     Ends {
         jets: [even - odd + psi, even + odd - psi, c * kappa0, c * kappa1],
@@ -151,7 +149,8 @@ fn respond(k: [f64; 4], moments: &SpiroMoments) -> Response {
     let (a, b) = ((kappa0 + kappa1) / (2.0 * c), (kappa1 - kappa0) / c);
     let (c2, c3) = (c * c, c * c * c);
 
-    // Response of log M₀ to T, A, E, B, and the two equations for d(log c), dψ.
+    // Response of log M₀ to T, A, E, B (the factorials are in the numbers), and the two equations for
+    // d(log c), dψ.
     let SpiroMoments([m0, moments @ ..]) = *moments;
     let i_over_m0 = Complex64::new(m0.im, m0.re) / (c * c);
     let [g0, g1, g2, g3] = moments.map(|moment| moment * i_over_m0);
