@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::time::Instant;
 
-use faircurve::{Contour, catalog};
+use faircurve::{Contour, Effort, Spline, catalog};
 use faircurve_format::Document;
 use serde::Serialize;
 use serde_json::json;
@@ -34,6 +34,8 @@ struct Tally {
     largest_relaxed_residual: f64,
     /// Solved with a segment longer than 4 chords.
     loops: usize,
+    /// Solved or relaxed at one or two places, without such a segment, where loops are to be avoided.
+    free_of_loops: usize,
     /// Length over chord of the longest segment of all that is called solved.
     longest: f64,
     /// What the report claims doesn't hold.
@@ -147,6 +149,7 @@ pub(crate) fn run(filter: &str, cases: Range<usize>) -> Result<Report, Failure> 
                 t.libspiro_seconds_of_both +=
                     least_of_three(|| input.solve_only(), timed(|| input.solve_only()).0);
             }
+            t.free_of_loops += usize::from(is_free_of_loops(&contour, &*spline, &ours));
             let (worse, is_new) = differences.compare(&name, &contour, &ours, &theirs);
             match worse {
                 Some(Worse::Relaxed) => t.worse_relaxed += 1,
@@ -177,7 +180,8 @@ pub(crate) fn run(filter: &str, cases: Range<usize>) -> Result<Report, Failure> 
     let text = [
         class_table(&tallies),
         format!(
-            "\nPer cent of all cases. loops: with a segment longer than {LOOP} chords; longest: in chords. \
+            "\nPer cent of all cases. loops: with a segment longer than {LOOP} chords; none, ≤2: without, when asked to \
+             avoid them, and relaxed at two\nplaces at most; longest: in chords. \
              ms: mean; most: of one. libspiro's with\nits entry point and the judge. time: libspiro's over ours where \
              both solve. libspiro counts as true when the residual\nrecomputed from its k₀…k₃ is at most \
              {TRULY_SOLVED:e}. worse (cases): libspiro's is true and ours relaxed; libspiro's has no\nloop \
@@ -189,6 +193,16 @@ pub(crate) fn run(filter: &str, cases: Range<usize>) -> Result<Report, Failure> 
     alarms.extend(differences.alarms());
     let json = json!({ "classes": tallies, "differences": differences.json(), "alarms": alarms });
     Ok(Report { text, json, notable, alarms })
+}
+
+/// Whether there is a curve without loops that is relaxed at two places at most, when asked to avoid
+/// loops. `ours` is what comes without asking.
+fn is_free_of_loops(contour: &Contour, spline: &dyn Spline, ours: &Ours) -> bool {
+    let is_free = |ours: &Ours| ours.longest <= LOOP && ours.solution.report.relaxed.len() <= 2;
+    is_free(ours)
+        || faircurve::solve_with(contour, spline, Effort::default().avoiding_loops())
+            .map(|solution| Ours::judge(contour, spline, solution))
+            .is_ok_and(|ours| ours.falsehood(contour).is_none() && is_free(&ours))
 }
 
 /// Seconds that some work takes, and its result.
@@ -217,6 +231,7 @@ fn class_table(tallies: &[Tally]) -> String {
                 of_all(t.relaxed_at_most_two),
                 of_all(t.relaxed - t.relaxed_at_most_two),
                 of_all(t.loops),
+                of_all(t.free_of_loops),
                 format!("{:.1}", t.longest),
                 tiny(t.largest_residual),
                 tiny(t.largest_relaxed_residual),
@@ -241,6 +256,7 @@ fn class_table(tallies: &[Tally]) -> String {
         "relaxed ≤2",
         ">2",
         "loops",
+        "none, ≤2",
         "longest",
         "residual",
         "if relaxed",

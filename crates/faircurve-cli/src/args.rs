@@ -64,6 +64,11 @@ pub(crate) struct SolveArgs {
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, help_heading = "Solving")]
     pub(crate) effort: Option<String>,
 
+    /// Rather relax one knot or two than let the curve loop between two knots (by more than four
+    /// times their distance). Otherwise what is asked comes first.
+    #[arg(long, help_heading = "Solving")]
+    pub(crate) no_loops: bool,
+
     /// Most that Béziers may deviate from the solved curves, in the drawing's units (for --metric
     /// sq-angle in their square root). Default: 1/10000 of the glyph's larger side.
     #[arg(long, value_name = "UNITS", allow_negative_numbers = true, help_heading = "Béziers")]
@@ -161,6 +166,10 @@ pub(crate) struct DrawingArgs {
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, help_heading = "Solving")]
     pub(crate) effort: Option<String>,
 
+    /// Rather relax one knot or two than let the curve loop between two knots; see `solve`.
+    #[arg(long, help_heading = "Solving")]
+    pub(crate) no_loops: bool,
+
     /// Format of the input: json, csv or sfd. Default: by the file's extension; json for stdin.
     #[arg(long, value_name = "KIND", help_heading = "Choosing")]
     pub(crate) from: Option<String>,
@@ -249,11 +258,12 @@ pub(crate) struct EditArgs {
     pub(crate) no_browser: bool,
 }
 
-/// How far to search, as given with --effort.
-pub(crate) fn effort(text: Option<&str>) -> Result<Effort, Failure> {
+/// How far to search, as given with --effort and --no-loops.
+pub(crate) fn effort(text: Option<&str>, no_loops: bool) -> Result<Effort, Failure> {
     let allowed = |factor: &f64| *factor >= 0.0 && factor.is_finite();
     let read = |text: &str| number("effort", text, "a number from 0", allowed);
-    Ok(text.map(read).transpose()?.map_or_else(Effort::default, Effort::times))
+    let effort = text.map(read).transpose()?.map_or_else(Effort::default, Effort::times);
+    Ok(if no_loops { effort.avoiding_loops() } else { effort })
 }
 
 /// Reads the command line.

@@ -27,7 +27,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
         return Err(Failure::new(format!("--width has no use for {format}"))
             .hint("write --format png, or drop --width"));
     }
-    let effort = args::effort(drawing.effort.as_deref())?;
+    let effort = args::effort(drawing.effort.as_deref(), drawing.no_loops)?;
     let splines = match &args.splines {
         Some(text) => splines(text)?,
         None => ENTRIES.iter().map(|info| Choice::new(info.name)).collect::<Result<_, _>>()?,

@@ -22,7 +22,7 @@ use crate::select::{self, Job};
 /// Read, select, solve, measure, write, report.
 pub(crate) fn run(args: &MeasureArgs) -> Result<ExitCode, Failure> {
     let is_json = is_json(args)?;
-    let effort = args::effort(args.drawing.effort.as_deref())?;
+    let effort = args::effort(args.drawing.effort.as_deref(), args.drawing.no_loops)?;
     let target = Target::new(&args.output, &args.drawing.inputs)?;
     let sources = input::read(&args.drawing.inputs, args.drawing.from.as_deref())?;
     let jobs = select::to_measure(sources, args)?;

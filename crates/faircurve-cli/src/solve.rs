@@ -18,7 +18,8 @@ use crate::select::{self, Job};
 /// Read, select, solve, format, write, report.
 pub(crate) fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     let output = Output::new(args)?;
-    let (beziers, effort) = (BezierOptions::new(args)?, args::effort(args.effort.as_deref())?);
+    let (beziers, effort) =
+        (BezierOptions::new(args)?, args::effort(args.effort.as_deref(), args.no_loops)?);
     let sources = input::read(&args.inputs, args.from.as_deref())?;
     let jobs = select::select(sources, args)?;
     let (solved, converted) = solve(&jobs, &beziers, effort)?;

@@ -42,23 +42,28 @@ pub trait Spline: fmt::Debug + Send + Sync {
 }
 
 /// How far to search where the straight way doesn't solve a contour as asked, before something is
-/// relaxed.
+/// relaxed; and whether a loop is reason enough to relax.
 ///
 /// Counted in work, not in time, so that the result is the same on every machine; relaxing is part of
 /// it. The default is at most about 50 ms a contour on a machine of 2024, and less for short runs;
 /// nearly all contours need none of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Effort(f64);
+pub struct Effort {
+    /// In units of the default.
+    times: f64,
+    /// Whether a curve that is relaxed comes before one that loops.
+    avoids_loops: bool,
+}
 
 impl Default for Effort {
     fn default() -> Self {
-        Effort(1.0)
+        Effort::times(1.0)
     }
 }
 
 impl Effort {
     /// No search at all.
-    pub const NONE: Effort = Effort(0.0);
+    pub const NONE: Effort = Effort { times: 0.0, avoids_loops: false };
 
     /// Segments evaluated for one contour at the default effort; 200 to 250 ns each.
     const EVALUATIONS: f64 = 150_000.0;
@@ -66,12 +71,27 @@ impl Effort {
     /// So many times the default; what isn't a number counts as 0, and more than 10⁵ (over an hour a
     /// contour) as that.
     pub fn times(factor: f64) -> Effort {
-        Effort(if factor > 0.0 { factor.min(1e5) } else { 0.0 })
+        Effort { times: if factor > 0.0 { factor.min(1e5) } else { 0.0 }, ..Effort::NONE }
+    }
+
+    /// The same effort, where loops aren't wanted: if every curve that was found as asked has a
+    /// segment longer than four chords, one or two knots (of each run) are relaxed when that
+    /// gives a curve without, and reported like all that is relaxed.
+    ///
+    /// Otherwise what is asked comes first, and a contour may have to loop for it. Only splines with
+    /// four parameters a segment (`spiro`, `mvc`) ever weigh one against the other.
+    pub fn avoiding_loops(self) -> Effort {
+        Effort { avoids_loops: true, ..self }
+    }
+
+    /// Whether a curve that is relaxed comes before one that loops.
+    pub(crate) fn avoids_loops(self) -> bool {
+        self.avoids_loops
     }
 
     /// The same effort, for segments whose evaluation takes so many times as long.
     pub(crate) fn of_costlier(self, times: f64) -> Effort {
-        Effort(self.0 / times)
+        Effort { times: self.times / times, ..self }
     }
 
     /// Segment evaluations for a run of so many knots. What a short run doesn't find early, it
@@ -79,13 +99,14 @@ impl Effort {
     pub(crate) fn evaluations(self, knots: usize) -> usize {
         /// For runs of up to ten knots. With half as much again, one more contour in a thousand is solved.
         const PER_CUBE: f64 = 130.0;
-        (self.0 * Self::EVALUATIONS.min(PER_CUBE * (knots as f64).powi(3))) as usize
+        (self.times * Self::EVALUATIONS.min(PER_CUBE * (knots as f64).powi(3))) as usize
     }
 
     /// What is left for each of several runs, given by their numbers of knots, that share it.
     fn shared(self, runs: impl Iterator<Item = usize>) -> Effort {
         let wanted: f64 = runs.map(|knots| self.evaluations(knots) as f64).sum();
-        Effort(self.0 * (self.0 * Self::EVALUATIONS / wanted.max(1.0)).min(1.0))
+        let share = (self.times * Self::EVALUATIONS / wanted.max(1.0)).min(1.0);
+        Effort { times: self.times * share, ..self }
     }
 }
 

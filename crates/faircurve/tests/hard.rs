@@ -64,6 +64,30 @@ fn effort_helps() {
     assert_eq!(status(Effort::times(f64::NAN)), Status::Relaxed);
 }
 
+/// What asks for smoothness everywhere along these has to come back in a balloon: out on a line, and
+/// back. Where loops are to be avoided, the fewest and weakest places that do are relaxed, no more
+/// than two, and named; without loops nothing changes.
+#[test]
+fn loops_are_avoided_at_the_cost_of_joins_only_when_asked() {
+    let spline = catalog::spline("spiro").unwrap();
+    let avoiding = Effort::default().avoiding_loops();
+    let line = [(0.0, 0.0), (-36.051, 76.462), (-50.669, 214.735), (-37.313, 336.366)];
+    let line = Contour::closed(line.map(|point| Knot::new(point).join(Join::G4)));
+    let asked = spiro(&line);
+    assert_eq!(asked.report.status(), Status::Solved);
+    assert!(longest(&asked) > 4.0, "{}", longest(&asked));
+    let unlooped = solve_with(&line, &*spline, avoiding).unwrap();
+    assert_eq!(unlooped.report.status(), Status::Relaxed);
+    assert!(longest(&unlooped) <= 4.0, "{}", longest(&unlooped));
+    assert!(unlooped.report.relaxed.len() <= 2, "{:?}", unlooped.report.relaxed);
+    for relaxed in &unlooped.report.relaxed {
+        assert!(relaxed.reason.contains("loops"), "{relaxed:?}");
+    }
+    let without = closed_spiral(90);
+    let avoided = solve_with(&without, &*spline, avoiding).unwrap();
+    assert_eq!(format!("{:?}", spiro(&without)), format!("{avoided:?}"));
+}
+
 /// Figure 2.7: several curves may satisfy the same equations. The one given is the natural one, and
 /// the same from every start and in both directions.
 #[test]

@@ -172,6 +172,18 @@ fn effort_decides_how_far_to_search() {
 }
 
 #[test]
+fn loops_are_relaxed_away_when_asked() {
+    let line = r#"{"faircurve": 1, "spline": "spiro", "glyphs": [{"name": "line", "contours": [{"closed": true, "knots": [
+        {"x": 0, "y": 0, "join": "g4"}, {"x": -36, "y": 76, "join": "g4"},
+        {"x": -51, "y": 215, "join": "g4"}, {"x": -37, "y": 336, "join": "g4"}]}]}]}"#;
+    let folder = Folder::new().with("line.json", line);
+    assert_eq!(folder.run("solve line.json --format path").code, 0);
+    let run = folder.run("solve line.json --format path --no-loops");
+    assert_eq!(run.code, 3);
+    assert!(run.stderr.contains("loops between two knots"), "{}", run.stderr);
+}
+
+#[test]
 fn bad_input_leaves_an_older_file_as_it_was() {
     let folder = Folder::new().with("bad.csv", "0,0\n10,1o\n").with("out.svg", "precious");
     folder.run("solve bad.csv -o out.svg").refused();

@@ -47,6 +47,21 @@ impl ConstraintSpline<'_> {
         self.relax_all(weaker, last)
     }
 
+    /// Weakens one knot or two of a run that is solved with loops so that it has none: to G2 if that
+    /// does, else to G1, else to corners (a closed curve through knots on a line has no other way). None
+    /// if no two do.
+    ///
+    /// This has a budget of its own, since what was spent on getting rid of the loops is gone.
+    pub(super) fn unloop(&self, run: &Run, looping: &Solved) -> Option<(Solved, Run)> {
+        /// Plain solves; one knot and two of eight make 36 with each join.
+        const SOLVES: usize = 3 * 36;
+        let mut budget = Budget::new(SOLVES * 20 * run.segment_count());
+        [Join::G2, Join::G1, Join::Corner].into_iter().find_map(|join| {
+            self.relax_few(run, looping, join, 1..=2, &mut budget)
+                .filter(|(solved, _)| solved.is_good())
+        })
+    }
+
     /// Weakens so many knots, whichever come first that make the run good; or the first that solve it
     /// with loops.
     fn relax_few(
@@ -222,15 +237,27 @@ fn chord_ratio(run: &Run, i: usize) -> f64 {
     (before / after).max(after / before)
 }
 
+/// Why a run is weakened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Cause {
+    /// No curve was found that is as asked.
+    Unsolved,
+    /// Those that were found loop.
+    Loop,
+}
+
 /// What the weakened run no longer asks, knot by knot.
-pub(super) fn relaxations(run: &Run, weaker: &Run) -> Vec<Relaxation> {
+pub(super) fn relaxations(run: &Run, weaker: &Run, cause: Cause) -> Vec<Relaxation> {
     let mut relaxed = Vec::new();
     for i in weakened(run, weaker) {
         let (asked, got) = (&run.knots[i], &weaker.knots[i]);
         let (no_tangent, no_curvature) =
             (asked.tangent != got.tangent, asked.curvature != got.curvature);
         let mut relax = |asked, got| {
-            let reason = if asked == "curvature" {
+            let reason = if cause == Cause::Loop {
+                "every curve that was found as asked loops between two knots; relaxed here, none does"
+                    .to_owned()
+            } else if asked == "curvature" {
                 "no curve was found that has this curvature here".to_owned()
             } else {
                 reason(run, i)

@@ -2,7 +2,7 @@
 
 use super::budget::Budget;
 use super::family::FourParamFamily;
-use super::relax::relaxations;
+use super::relax::{Cause, relaxations};
 use super::strategy;
 use super::system::RunSystem;
 use crate::frame::{circle_tangent, direction, wrap_angle};
@@ -108,11 +108,20 @@ impl<'a> ConstraintSpline<'a> {
         budget.reserve(FOR_RELAXING);
         let solved = self.solve_smooth(run, Means::Search, &mut budget);
         if solved.is_solved() {
-            return self.place(run, solved, Vec::new());
+            let unlooped = (effort.avoids_loops() && solved.loops > 0)
+                .then(|| self.unloop(run, &solved))
+                .flatten();
+            return match unlooped {
+                Some((solved, weaker)) => {
+                    let relaxed = relaxations(run, &weaker, Cause::Loop);
+                    self.place(run, solved, relaxed)
+                }
+                None => self.place(run, solved, Vec::new()),
+            };
         }
         budget.release();
         let (solved, weaker) = self.relax(run, solved, budget);
-        let relaxed = relaxations(run, &weaker);
+        let relaxed = relaxations(run, &weaker, Cause::Unsolved);
         self.place(run, solved, relaxed)
     }
 
@@ -152,10 +161,11 @@ impl<'a> ConstraintSpline<'a> {
             .collect()
     }
 
-    /// Solves a run that may have G1 knots, at which it falls into stretches of their own.
+    /// Solves a run that may have G1 knots and corners, at which it falls into stretches of their own.
     pub(super) fn solve_split(&self, run: &Run, means: Means, budget: &mut Budget) -> Solved {
         let n = run.knots.len();
-        let is_split = |i: usize| is_interior(run, i) && run.knots[i].join == Join::G1;
+        let is = |i: usize, join: Join| is_interior(run, i) && run.knots[i].join == join;
+        let is_split = |i: usize| is(i, Join::G1) || is(i, Join::Corner);
         let mut bounds: Vec<usize> = (0..n).filter(|&i| is_split(i)).collect();
         let Some(&first) = bounds.first() else { return self.solve_smooth(run, means, budget) };
         if run.closed {
@@ -175,7 +185,7 @@ impl<'a> ConstraintSpline<'a> {
             let mut stretch = run.stretch(pair[0], pair[1]);
             let count = stretch.knots.len();
             let ends = [(0, pair[0]), (count - 1, pair[1])];
-            for (end, knot) in ends.into_iter().filter(|&(_, knot)| is_split(knot)) {
+            for (end, knot) in ends.into_iter().filter(|&(_, knot)| is(knot, Join::G1)) {
                 stretch.knots[end].tangent = Some(self.g1_tangent(run, knot));
             }
             let solved = self.solve_smooth(&stretch, means, budget);
