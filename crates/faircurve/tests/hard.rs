@@ -88,6 +88,25 @@ fn loops_are_avoided_at_the_cost_of_joins_only_when_asked() {
     assert_eq!(format!("{:?}", spiro(&without)), format!("{avoided:?}"));
 }
 
+/// Two knots 1e-9 of their neighbours' distance apart (`near-coincident closed g4 8 case 12` of the
+/// gauntlet), for which an offline search knows a curve.
+#[test]
+#[ignore = "known failure: relaxed to G2 at one of the two near knots, at any effort; no start that was tried leads there"]
+fn knots_all_but_in_one_place_are_joined_as_asked() {
+    let knots = [
+        (0.0, 0.0),
+        (-88.26779594369702, -24.208502294887275),
+        (-161.9659209932279, -25.446170741153722),
+        (-161.96592108612035, -25.446170789250377),
+        (-177.75374048559382, -155.10205292343855),
+        (-104.75390628518741, -253.26240555247625),
+        (-114.92234302170964, -308.2608207649614),
+        (-54.1695927765488, -367.7618079060013),
+    ];
+    let solution = spiro(&Contour::closed(knots.map(|point| Knot::new(point).join(Join::G4))));
+    assert_eq!(solution.report.status(), Status::Solved, "{:?}", solution.report);
+}
+
 /// Figure 2.7: several curves may satisfy the same equations. The one given is the natural one, and
 /// the same from every start and in both directions.
 #[test]
