@@ -108,16 +108,14 @@ impl<'a> ConstraintSpline<'a> {
         budget.reserve(FOR_RELAXING);
         let solved = self.solve_smooth(run, Means::Search, &mut budget);
         if solved.is_solved() {
-            let unlooped = (effort.avoids_loops() && solved.loops > 0)
-                .then(|| self.unloop(run, &solved))
-                .flatten();
-            return match unlooped {
-                Some((solved, weaker)) => {
-                    let relaxed = relaxations(run, &weaker, Cause::Loop);
-                    self.place(run, solved, relaxed)
-                }
-                None => self.place(run, solved, Vec::new()),
-            };
+            if effort.avoids_loops()
+                && solved.loops > 0
+                && let Some((solved, weaker)) = self.unloop(run, &solved)
+            {
+                let relaxed = relaxations(run, &weaker, Cause::Loop);
+                return self.place(run, solved, relaxed);
+            }
+            return self.place(run, solved, Vec::new());
         }
         budget.release();
         let (solved, weaker) = self.relax(run, solved, budget);
