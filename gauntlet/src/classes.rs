@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::time::Instant;
 
-use faircurve::{Contour, Effort, Spline, catalog};
+use faircurve::{Contour, Effort, Spline, Stage, catalog};
 use faircurve_format::Document;
 use serde::Serialize;
 use serde_json::json;
@@ -43,7 +43,7 @@ struct Tally {
     not_finite: usize,
     most_iterations: usize,
     /// How many of the solved come from each stage, in the order of `Stage::ALL`.
-    stages: [usize; 4],
+    stages: [usize; Stage::ALL.len()],
     /// Wall time of the solve, over all cases.
     our_seconds: f64,
     /// Of the slowest case, without what other programs took.

@@ -132,7 +132,7 @@ export class Curve {
     return this.#solved.iterations();
   }
 
-  /** How far the search had to go: `plain`, `bridged`, `mended` or `grown`. */
+  /** How far the search had to go: `plain`, `fused`, `bridged`, `mended` or `grown`. */
   get stage(): string {
     return this.#solved.stage();
   }

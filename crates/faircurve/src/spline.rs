@@ -117,6 +117,8 @@ pub enum Stage {
     /// Newton's method, from where it always starts.
     #[default]
     Plain,
+    /// Solved the run with two knots that nearly coincide made one, and started from there.
+    Fused,
     /// Hung a segment between the chains on both sides, solved alone.
     Bridged,
     /// Restarted stretches with other windings and other seeds; for two-parameter splines, took
@@ -128,12 +130,14 @@ pub enum Stage {
 
 impl Stage {
     /// All stages, in the order in which they are tried.
-    pub const ALL: [Stage; 4] = [Stage::Plain, Stage::Bridged, Stage::Mended, Stage::Grown];
+    pub const ALL: [Stage; 5] =
+        [Stage::Plain, Stage::Fused, Stage::Bridged, Stage::Mended, Stage::Grown];
 
-    /// `plain`, `bridged`, `mended` or `grown`.
+    /// `plain`, `fused`, `bridged`, `mended` or `grown`.
     pub const fn name(self) -> &'static str {
         match self {
             Stage::Plain => "plain",
+            Stage::Fused => "fused",
             Stage::Bridged => "bridged",
             Stage::Mended => "mended",
             Stage::Grown => "grown",

@@ -316,28 +316,76 @@ impl<'a> RunSystem<'a> {
     }
 
     /// How much longer a segment is than its neighbours: the square of its chord over the product
-    /// of theirs; 0 where it has no neighbour, or isn't joined to both of them in all of κ, κ′, κ″.
+    /// of theirs; 0 where it has only one, or isn't joined to both of them in all of κ, κ′, κ″.
     pub(super) fn prominence(&self, segment: usize) -> f64 {
+        let chord = self.chords[segment];
+        self.smooth_neighbours(segment)
+            .map_or(0.0, |[before, after]| chord / before * (chord / after))
+    }
+
+    /// The chords on both sides of a segment that is joined to both in all of κ, κ′, κ″.
+    fn smooth_neighbours(&self, segment: usize) -> Option<[f64; 2]> {
         let n = self.knots.len();
-        let joined = [segment, (segment + 1) % n].iter().all(|&knot| {
-            self.knots[knot]
-                .equations
-                .iter()
-                .all(|e| matches!(e, Equation::Condition(Condition::Continuous(_))))
-        });
-        if !joined {
-            return 0.0;
+        let (start, end) = (segment, (segment + 1) % n);
+        let is_joined = |knot: usize| {
+            let mut equations = self.knots[knot].equations.iter();
+            equations.all(|e| matches!(e, Equation::Condition(Condition::Continuous(_))))
+        };
+        let before = neighbours(start, n, self.closed).0?;
+        let after = neighbours(end, n, self.closed).1?;
+        (is_joined(start) && is_joined(end)).then(|| [self.chords[before], self.chords[after]])
+    }
+
+    /// How long a segment is in terms of the shorter of its neighbours; infinite where it has only
+    /// one, or isn't joined to both of them in all of κ, κ′, κ″.
+    pub(super) fn shortness(&self, segment: usize) -> f64 {
+        match self.smooth_neighbours(segment) {
+            Some([before, after]) => self.chords[segment] / before.min(after),
+            None => f64::INFINITY,
         }
-        let (before, after) = (
-            neighbours(segment, n, self.closed).0,
-            neighbours((segment + 1) % n, n, self.closed).1,
-        );
-        match (before, after) {
-            (Some(l), Some(r)) => {
-                self.chords[segment] / self.chords[l] * (self.chords[segment] / self.chords[r])
-            }
-            _ => 0.0,
+    }
+
+    /// The same run, from straight segments, with the two knots of a segment made one that has the
+    /// segment's direction: joined in κ and κ′, as the two are in the limit.
+    pub(super) fn fused(&self, segment: usize) -> Self {
+        let n = self.knots.len();
+        let (start, end) = (segment, (segment + 1) % n);
+        let mut fused = self.clone();
+        fused.parameters.remove(segment);
+        fused.parameters.fill([0.0; 4]);
+        fused.chords.remove(segment);
+        fused.responses.clear();
+        fused.knots[end] = SystemKnot {
+            equations: [
+                Equation::Condition(Condition::Continuous(Quantity::FirstDerivative)),
+                Equation::Direction(self.knots[end].turn),
+            ],
+            turn: self.knots[start].turn + self.knots[end].turn,
+            ..self.knots[end]
+        };
+        fused.knots.remove(start);
+        fused.mismatches.remove(start);
+        for i in 0..n - 1 {
+            let sides = neighbours(i, n - 1, self.closed);
+            let [left, right] = [sides.0, sides.1].map(|side| side.map(|j| fused.chords[j]));
+            fused.knots[i].set_chords(left, right);
         }
+        fused
+    }
+
+    /// Takes over segments and windings from a system that [`fused`](Self::fused) made, with the
+    /// segment that it lacks straight.
+    pub(super) fn take_from_fused(&mut self, fused: &Self, segment: usize) {
+        let n = self.knots.len();
+        let (start, end) = (segment, (segment + 1) % n);
+        self.parameters.clone_from(&fused.parameters);
+        self.parameters.insert(segment, [0.0; 4]);
+        let leave = self.knots[end].turn;
+        let kept = (0..n).filter(|&i| i != start);
+        kept.zip(&fused.knots).for_each(|(i, knot)| self.knots[i].turn = knot.turn);
+        self.knots[start].turn = self.knots[end].turn - leave;
+        self.knots[end].turn = leave;
+        self.evaluate();
     }
 
     /// Chooses the winding at each knot in which its directions differ least.

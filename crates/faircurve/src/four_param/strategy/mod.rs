@@ -4,23 +4,26 @@
 //! 1. **Newton** from straight segments, each segment's step limited on its own, so that good
 //!    stretches settle while bad ones still bounce. Nearly all real contours end here. Two and three
 //!    knots, and knots on a circle, start from arcs, which are the solution.
-//! 2. **Bridging** ([`bridge`]), where a segment is much longer than its neighbours: the chains on
+//! 2. **Fusing** ([`fuse`]), where a segment is much shorter than its neighbours: the run in which its
+//!    two knots are one is solved by all these stages, and the segment put back.
+//! 3. **Bridging** ([`bridge`]), where a segment is much longer than its neighbours: the chains on
 //!    both sides are solved alone, and the long segment is hung between them in its straightest form.
-//! 3. **Mending** ([`mend`]), where few knots are bad. A stretch that doesn't settle, or loops, is
+//! 4. **Mending** ([`mend`]), where few knots are bad. A stretch that doesn't settle, or loops, is
 //!    restarted alone, its rim held, with other *windings* and other seeds, until it settles. Windings
 //!    decide hard cases: a knot at which the chords turn by t may have to be joined as t ∓ 2π, the
 //!    other way round.
-//! 4. **Growing** ([`grow`]), where something is still bad. The run is built anew knot by knot: each
+//! 5. **Growing** ([`grow`]), where something is still bad. The run is built anew knot by knot: each
 //!    step adds one and lets the last few settle with a free end, in the few windings nearest to the
 //!    natural one. What is left is mended, and the whole run solved on from there.
 //!
-//! What stages 3 and 4 find is straightened in the end, where it winds more than it must.
+//! What stages 4 and 5 find is straightened in the end, where it winds more than it must.
 //!
 //! The search sees rounded numbers, so that it takes the same course however the drawing is moved,
 //! turned or scaled; the last word is Newton's, on the exact ones. It is deterministic: seeds are
 //! fixed, and the budget counts work, not time.
 
 mod bridge;
+mod fuse;
 mod grow;
 mod mend;
 
@@ -101,7 +104,7 @@ pub(in crate::four_param) fn settle(
     newton(system, matrix, PLAIN)
 }
 
-/// Stages 2 to 4, from the state that [`solve_plainly`] left. Ends in the best state found.
+/// Stages 2 to 5, from the state that [`solve_plainly`] left. Ends in the best state found.
 pub(in crate::four_param) fn search(
     system: &mut RunSystem<'_>,
     matrix: &mut BlockTridiagonal<2>,
@@ -221,7 +224,7 @@ impl Best {
     }
 }
 
-/// Stages 2 to 4 on one run.
+/// Stages 2 to 5 on one run.
 struct Rescue {
     budget: Budget,
     random: Random,
@@ -237,9 +240,24 @@ impl Rescue {
         Rescue { budget, random: Random(0), sense, iterations: 0 }
     }
 
-    /// Leaves the best state found in `system`, and says which stage it comes from. Once the
-    /// run is solved, what is kept for relaxing serves to be rid of loops.
+    /// Leaves the best state found in `system`, and says which stage it comes from.
     fn run(&mut self, system: &mut RunSystem<'_>, matrix: &mut BlockTridiagonal<2>) -> Stage {
+        let straight = system.state();
+        let Some(fused) = self.fuse(system, matrix) else {
+            return self.run_unfused(system, matrix).stage;
+        };
+        if fused.is_good() {
+            return fused.stage;
+        }
+        self.return_to(system, &straight);
+        let other = self.run_unfused(system, matrix);
+        let best = if fused.merit.cmp(&other.merit) == Ordering::Less { fused } else { other };
+        self.return_to(system, &best.state);
+        best.stage
+    }
+
+    /// Stages 3 to 5. Once the run is solved, what is kept for relaxing serves to be rid of loops.
+    fn run_unfused(&mut self, system: &mut RunSystem<'_>, matrix: &mut BlockTridiagonal<2>) -> Best {
         /// Growing costs at least this much a knot.
         const COST: usize = 40;
         let n = system.knots.len();
@@ -248,7 +266,7 @@ impl Rescue {
         if n > 3 && self.bridge(system) {
             self.settle(system, matrix, Stage::Bridged, &mut best);
             if best.is_good() {
-                return best.stage;
+                return best;
             }
         }
         self.return_to(system, &best.state);
@@ -274,12 +292,12 @@ impl Rescue {
                 self.straighten(system);
                 self.settle(system, matrix, found_in, &mut best);
                 self.return_to(system, &best.state);
-                return best.stage;
+                return best;
             }
             let is_solved = best.merit.residual <= SOLVED;
             if self.budget.is_spent() {
                 if !(is_solved && self.budget.release()) {
-                    return best.stage;
+                    return best;
                 }
                 self.straighten(system);
             }
