@@ -12,16 +12,26 @@ use crate::frame::wrap_angle;
 use crate::numeric::block_tridiagonal::BlockTridiagonal;
 use crate::tolerance::LOOP;
 
+/// Segments less prominent than this don't dominate their neighbours. Anything from 1 to 10
+/// solves about as many; up to 5 the straight forms also replace loops of closed walks of 4.
+const PROMINENT: f64 = 5.0;
+
+/// A chain that doesn't settle is itself bridged at a segment at least this prominent. Anything from 30
+/// to 300 solves about as many; from 5 on, long runs of random points spend too much on it.
+const PROMINENT_IN_CHAIN: f64 = 100.0;
+
 impl Rescue {
     /// Rebuilds a run around its most prominent segment; whether it settles there.
     pub(super) fn bridge(&mut self, system: &mut RunSystem<'_>) -> bool {
-        /// Segments less prominent than this don't dominate their neighbours. Anything from 1 to 10
-        /// solves about as many; up to 5 the straight forms also replace loops of closed walks of 4.
-        const PROMINENT: f64 = 5.0;
+        self.bridge_above(system, PROMINENT)
+    }
+
+    /// The same if it is more prominent than `least`.
+    fn bridge_above(&mut self, system: &mut RunSystem<'_>, least: f64) -> bool {
         let n = system.knots.len();
         let candidates = (0..system.parameters.len()).map(|i| (system.prominence(i), i));
         let Some((_, segment)) = candidates
-            .filter(|&(prominence, _)| prominence > PROMINENT)
+            .filter(|&(prominence, _)| prominence > least)
             .max_by(|a, b| a.0.total_cmp(&b.0))
         else {
             return false;
@@ -66,6 +76,9 @@ impl Rescue {
         chains.iter_mut().all(|(first, chain)| {
             let mut matrix = BlockTridiagonal::new(chain.knots.len(), false);
             self.newton(chain, &mut matrix, LONG);
+            if Badness::of(chain).unsettled > 0 {
+                self.bridge_above(chain, PROMINENT_IN_CHAIN);
+            }
             let unsettled = Badness::of(chain).unsettled;
             if unsettled > 0 && (unsettled as f64) < FEW * chain.knots.len() as f64 {
                 self.mend(chain);

@@ -257,7 +257,11 @@ impl Rescue {
     }
 
     /// Stages 3 to 5. Once the run is solved, what is kept for relaxing serves to be rid of loops.
-    fn run_unfused(&mut self, system: &mut RunSystem<'_>, matrix: &mut BlockTridiagonal<2>) -> Best {
+    fn run_unfused(
+        &mut self,
+        system: &mut RunSystem<'_>,
+        matrix: &mut BlockTridiagonal<2>,
+    ) -> Best {
         /// Growing costs at least this much a knot.
         const COST: usize = 40;
         let n = system.knots.len();
