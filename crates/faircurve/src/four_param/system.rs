@@ -324,6 +324,7 @@ impl<'a> RunSystem<'a> {
     }
 
     /// The chords on both sides of a segment that is joined to both in all of κ, κ′, κ″.
+    #[inline(never)] // for the size of the web's module
     fn smooth_neighbours(&self, segment: usize) -> Option<[f64; 2]> {
         let n = self.knots.len();
         let (start, end) = (segment, (segment + 1) % n);

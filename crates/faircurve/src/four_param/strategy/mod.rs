@@ -214,6 +214,7 @@ struct Best {
 }
 
 impl Best {
+    #[inline(never)] // for the size of the web's module
     fn of(system: &RunSystem<'_>, residual: f64, stage: Stage) -> Best {
         let merit = Merit { badness: Badness::of(system), residual, bend: system.total_bend() };
         Best { state: system.state(), merit, stage }
@@ -243,16 +244,17 @@ impl Rescue {
     /// Leaves the best state found in `system`, and says which stage it comes from.
     fn run(&mut self, system: &mut RunSystem<'_>, matrix: &mut BlockTridiagonal<2>) -> Stage {
         let straight = system.state();
-        let Some(fused) = self.fuse(system, matrix) else {
-            return self.run_unfused(system, matrix).stage;
-        };
-        if fused.is_good() {
-            return fused.stage;
+        let fused = self.fuse(system, matrix);
+        match &fused {
+            Some(fused) if fused.is_good() => return fused.stage,
+            Some(_) => self.return_to(system, &straight),
+            None => {}
         }
-        self.return_to(system, &straight);
-        let other = self.run_unfused(system, matrix);
-        let best = if fused.merit.cmp(&other.merit) == Ordering::Less { fused } else { other };
-        self.return_to(system, &best.state);
+        let mut best = self.run_unfused(system, matrix);
+        if let Some(fused) = fused.filter(|fused| fused.merit.cmp(&best.merit) == Ordering::Less) {
+            self.return_to(system, &fused.state);
+            best = fused;
+        }
         best.stage
     }
 
@@ -346,6 +348,7 @@ impl Rescue {
     }
 
     /// Comes back to a state.
+    #[inline(never)] // for the size of the web's module
     fn return_to(&mut self, system: &mut RunSystem<'_>, state: &State) {
         system.set_state(state);
         self.budget.spend(system.parameters.len());
