@@ -104,8 +104,9 @@ impl LiveContour {
             let is_inner = self.contour.closed || (index > 0 && index < count);
             if is_inner {
                 let divided = (index + count - 1) % count;
-                let pieces = divide(&near[divided], knot.point);
-                near.splice(divided..=divided, pieces);
+                let [before, after] = divide(&near[divided], knot.point);
+                near[divided] = before;
+                near.insert(divided + 1, after);
                 if index == 0 {
                     // The piece behind the new first knot leaves it.
                     near.rotate_right(1);

@@ -2,7 +2,6 @@
 //!
 //! Adding a family touches its own folder and one line of [`ENTRIES`].
 
-use std::collections::BTreeMap;
 use std::fmt;
 
 use crate::numeric::order::sort_by;
@@ -189,7 +188,7 @@ impl From<&str> for ParamValue {
 
 /// Parameters by name.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct Params(BTreeMap<String, ParamValue>);
+pub struct Params(Vec<(String, ParamValue)>); // In order of their names: a handful needs no map.
 
 impl Params {
     /// No parameters: every default.
@@ -205,12 +204,25 @@ impl Params {
 
     /// Sets one.
     pub fn set(&mut self, name: &str, value: impl Into<ParamValue>) {
-        self.0.insert(name.to_owned(), value.into());
+        let value = value.into();
+        match self.place(name) {
+            Ok(i) => self.0[i].1 = value,
+            Err(i) => self.0.insert(i, (name.to_owned(), value)),
+        }
     }
 
     /// What is set, by name.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &ParamValue)> {
         self.0.iter().map(|(name, value)| (name.as_str(), value))
+    }
+
+    /// Where a parameter is, or belongs.
+    fn place(&self, name: &str) -> Result<usize, usize> {
+        self.0.binary_search_by(|(other, _)| other.as_str().cmp(name))
+    }
+
+    fn get(&self, name: &str) -> Option<&ParamValue> {
+        self.place(name).ok().map(|i| &self.0[i].1)
     }
 
     /// Whether every parameter has its default.
@@ -220,7 +232,7 @@ impl Params {
 
     /// The word chosen for `name`, or `default`. For use in [`SplineInfo::build`], after checking.
     pub fn choice<'a>(&'a self, name: &str, default: &'a str) -> &'a str {
-        match self.0.get(name) {
+        match self.get(name) {
             Some(ParamValue::Text(text)) => text,
             _ => default,
         }
@@ -229,12 +241,12 @@ impl Params {
     /// The text given for `name`, or `default`: a number is text too. For use in
     /// [`SplineInfo::build`].
     pub fn text(&self, name: &str, default: &str) -> String {
-        self.0.get(name).map_or_else(|| default.to_owned(), ParamValue::to_string)
+        self.get(name).map_or_else(|| default.to_owned(), ParamValue::to_string)
     }
 
     /// The number given for `name`, or `default`. For use in [`SplineInfo::build`], after checking.
     pub fn number(&self, name: &str, default: f64) -> f64 {
-        match self.0.get(name) {
+        match self.get(name) {
             Some(ParamValue::Number(number)) => *number,
             _ => default,
         }

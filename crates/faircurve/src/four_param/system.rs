@@ -352,25 +352,19 @@ impl<'a> RunSystem<'a> {
         let n = self.knots.len();
         let (start, end) = (segment, (segment + 1) % n);
         let mut fused = self.clone();
-        fused.parameters.remove(segment);
-        fused.parameters.fill([0.0; 4]);
-        fused.chords.remove(segment);
-        fused.responses.clear();
-        fused.knots[end] = SystemKnot {
-            equations: [
-                Equation::Condition(Condition::Continuous(Quantity::FirstDerivative)),
-                Equation::Direction(self.knots[end].turn),
-            ],
-            turn: self.knots[start].turn + self.knots[end].turn,
-            ..self.knots[end]
-        };
+        let knot = &mut fused.knots[end];
+        knot.equations = [
+            Equation::Condition(Condition::Continuous(Quantity::FirstDerivative)),
+            Equation::Direction(knot.turn),
+        ];
+        knot.turn += self.knots[start].turn;
+        let sides = self.smooth_neighbours(segment);
+        knot.set_chords(sides.map(|[before, _]| before), sides.map(|[_, after]| after));
         fused.knots.remove(start);
-        fused.mismatches.remove(start);
-        for i in 0..n - 1 {
-            let sides = neighbours(i, n - 1, self.closed);
-            let [left, right] = [sides.0, sides.1].map(|side| side.map(|j| fused.chords[j]));
-            fused.knots[i].set_chords(left, right);
-        }
+        fused.chords.remove(segment);
+        fused.parameters.truncate(fused.chords.len());
+        fused.parameters.fill([0.0; 4]);
+        fused.mismatches.truncate(n - 1);
         fused
     }
 
@@ -379,11 +373,15 @@ impl<'a> RunSystem<'a> {
     pub(super) fn take_from_fused(&mut self, fused: &Self, segment: usize) {
         let n = self.knots.len();
         let (start, end) = (segment, (segment + 1) % n);
-        self.parameters.clone_from(&fused.parameters);
-        self.parameters.insert(segment, [0.0; 4]);
         let leave = self.knots[end].turn;
+        self.parameters[segment] = [0.0; 4];
         let kept = (0..n).filter(|&i| i != start);
-        kept.zip(&fused.knots).for_each(|(i, knot)| self.knots[i].turn = knot.turn);
+        for (other, i) in kept.enumerate() {
+            self.knots[i].turn = fused.knots[other].turn;
+            if let Some(parameters) = fused.parameters.get(other) {
+                self.parameters[i] = *parameters;
+            }
+        }
         self.knots[start].turn = self.knots[end].turn - leave;
         self.knots[end].turn = leave;
         self.evaluate();

@@ -52,11 +52,14 @@ pub fn newton<const B: usize>(
 }
 
 /// The same, as long as the state reached is also worth going on from.
+///
+/// One copy of the code serves all reasons to go on: the module for the web has to be small.
+#[inline(never)]
 pub fn newton_while<const B: usize>(
     system: &mut impl System<B>,
     matrix: &mut BlockTridiagonal<B>,
     limits: Limits,
-    goes_on: impl Fn(Outcome) -> bool,
+    goes_on: fn(Outcome) -> bool,
 ) -> Outcome {
     /// Below this, quadratic convergence has arrived: another step can't help.
     const DONE: f64 = 4e-15;

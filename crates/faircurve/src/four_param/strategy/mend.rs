@@ -31,18 +31,12 @@ impl Rescue {
             };
             attempt += 1;
             self.budget.spend(n / BOOKKEEPING);
-            let Some(window) = self.restart(system, from, to, attempt) else { continue };
-            let (before, badness, bend) =
-                (system.state(), Badness::of(system), system.total_bend());
-            system.adopt(&window, from);
-            self.settle_around(system, from, to);
-            let now = Badness::of(system);
-            let bends_less =
-                now == badness && now.unsettled == 0 && system.total_bend() < LESS * bend;
-            if now < badness {
+            let before = Badness::of(system);
+            self.try_restart(system, (from, to), attempt, |before, now, bends_less| {
+                now < before || (now == before && now.unsettled == 0 && bends_less)
+            });
+            if Badness::of(system) < before {
                 attempt = 0;
-            } else if !bends_less {
-                self.return_to(system, &before);
             }
         }
     }
@@ -75,14 +69,29 @@ impl Rescue {
                 (false, true) => (0, 0),
                 (false, false) => (0, n - 1),
             };
-            let Some(window) = self.restart(system, from, to, attempt) else { continue };
-            let (before, badness, bend) =
-                (system.state(), Badness::of(system), system.total_bend());
-            system.adopt(&window, from);
-            self.settle_around(system, from, to);
-            if Badness::of(system) > badness || system.total_bend() >= LESS * bend {
-                self.return_to(system, &before);
-            }
+            self.try_restart(system, (from, to), attempt, |before, now, bends_less| {
+                now <= before && bends_less
+            });
+        }
+    }
+
+    /// Restarts the stretch between two knots, lets its surroundings settle, and comes back to what
+    /// was unless that is worth keeping: by what was wrong before, what is now, and whether the run
+    /// bends less.
+    fn try_restart(
+        &mut self,
+        system: &mut RunSystem<'_>,
+        (from, to): (usize, usize),
+        attempt: usize,
+        is_worth_keeping: fn(Badness, Badness, bool) -> bool,
+    ) {
+        let Some(window) = self.restart(system, from, to, attempt) else { return };
+        let (before, badness, bend) = (system.state(), Badness::of(system), system.total_bend());
+        system.adopt(&window, from);
+        self.settle_around(system, from, to);
+        let bends_less = system.total_bend() < LESS * bend;
+        if !is_worth_keeping(badness, Badness::of(system), bends_less) {
+            self.return_to(system, &before);
         }
     }
 

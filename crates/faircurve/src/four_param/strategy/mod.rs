@@ -331,6 +331,7 @@ impl Rescue {
         self.count(window, outcome)
     }
 
+    #[inline(never)] // for the size of the web's module
     fn newton(
         &mut self,
         system: &mut RunSystem<'_>,
