@@ -457,8 +457,9 @@ impl Plan {
         for ((place, run), solution) in self.places.iter().zip(&self.runs).zip(solved) {
             let node_of = |i: usize| place.node_of(run, i, n);
             let segment_of = |i: usize| place.segment_of(run, i, n);
-            for (i, segment) in solution.segments.iter().enumerate().take(run.segment_count()) {
-                let segment = if place.reversed { segment.reversed() } else { segment.clone() };
+            let solved = solution.segments.into_iter().take(run.segment_count());
+            for (i, segment) in solved.enumerate() {
+                let segment = if place.reversed { segment.reversed() } else { segment };
                 shapes[segment_of(i)] = Some(segment);
             }
             let input_place = |place: Place| match place {
@@ -520,19 +521,19 @@ impl Plan {
         }
         // Between coincident knots: the direction of what arrives, or else of what leaves.
         let arriving = |s: &Segment| s.direction(s.length());
-        let first = placed.iter().flatten().next().map(|s| s.direction(0.0));
-        let last = placed.iter().flatten().next_back().map(arriving);
-        let mut carried = if self.closed { last } else { first }.unwrap_or(0.0);
-        (0..total)
-            .map(|i| {
+        let around = match self.closed {
+            true => placed.iter().flatten().next_back().map(arriving),
+            false => placed.iter().flatten().next().map(|s| s.direction(0.0)),
+        };
+        let mut whole: Vec<Segment> = Vec::with_capacity(total);
+        for (i, segment) in placed.into_iter().enumerate() {
+            whole.push(segment.unwrap_or_else(|| {
                 let (start, end) = ends(i);
-                let segment = placed[i]
-                    .take()
-                    .unwrap_or_else(|| Segment::line_with_direction(start, end, carried));
-                carried = arriving(&segment);
-                segment
-            })
-            .collect()
+                let way = whole.last().map(arriving).or(around).unwrap_or(0.0);
+                Segment::line_with_direction(start, end, way)
+            }));
+        }
+        whole
     }
 
     fn solved_knots(&self, segments: &[Segment], report: &SolveReport) -> Vec<SolvedKnot> {
@@ -560,12 +561,13 @@ impl Plan {
             };
             let members = (node.last + count - node.first) % count;
             for i in 0..=members {
-                let index = (node.first + i) % count;
-                knots.push((index, SolvedKnot { point: self.points[index], ..solved }));
+                let point = self.points[(node.first + i) % count];
+                knots.push(SolvedKnot { point, ..solved });
             }
         }
-        sort_by(&mut knots, |a, b| a.0.cmp(&b.0));
-        knots.into_iter().map(|(_, knot)| knot).collect()
+        // In order but for those at the end that coincide with the first.
+        knots.rotate_left((count - self.nodes[0].first) % count);
+        knots
     }
 }
 

@@ -139,6 +139,8 @@ enum Equation {
 struct TangentSystem<'a> {
     map: &'a dyn CurvatureMap,
     contexts: Vec<SegmentContext>,
+    /// The roots of the chords.
+    roots: Vec<f64>,
     turns: Vec<f64>,
     equations: Vec<Equation>,
     /// `theta0` of the segment that leaves each knot; at the end of an open run, `theta1` of the
@@ -190,9 +192,11 @@ impl<'a> TangentSystem<'a> {
                 }
             })
             .collect();
+        let contexts: Vec<SegmentContext> = (0..segments).map(|i| context(run, i)).collect();
         let mut system = TangentSystem {
             map,
-            contexts: (0..segments).map(|i| context(run, i)).collect(),
+            roots: contexts.iter().map(|context| context.chord.sqrt()).collect(),
+            contexts,
             turns: run.knots.iter().map(|knot| knot.turn).collect(),
             equations,
             tangents: vec![0.0; n],
@@ -243,6 +247,7 @@ impl<'a> TangentSystem<'a> {
         let mut rounded = TangentSystem {
             map: self.map,
             contexts: self.contexts.clone(),
+            roots: Vec::with_capacity(self.contexts.len()),
             turns: self.turns.clone(),
             equations: self.equations.clone(),
             tangents: self.tangents.clone(),
@@ -256,6 +261,7 @@ impl<'a> TangentSystem<'a> {
         };
         for context in &mut rounded.contexts {
             context.chord = floating(context.chord / longest);
+            rounded.roots.push(context.chord.sqrt());
         }
         rounded.turns.iter_mut().for_each(|turn| *turn = fixed(*turn));
         rounded.tangents.iter_mut().for_each(|tangent| *tangent = fixed(*tangent));
@@ -333,7 +339,7 @@ impl<'a> TangentSystem<'a> {
 
     /// The end tangents of a segment.
     fn angles(&self, segment: usize) -> ChordAngles {
-        let end = (segment + 1) % self.tangents.len();
+        let end = if segment + 1 == self.tangents.len() { 0 } else { segment + 1 };
         let is_last = !self.closed && segment + 1 == self.contexts.len();
         let theta1 =
             if is_last { self.tangents[end] } else { self.turns[end] - self.tangents[end] };
@@ -423,7 +429,7 @@ impl TangentSystem<'_> {
                 }
             }
             (Equation::Continuous, Some(l), Some(r)) => {
-                let (cl, cr) = (self.contexts[l].chord.sqrt(), self.contexts[r].chord.sqrt());
+                let (cl, cr) = (self.roots[l], self.roots[r]);
                 let v = Turned::new(self.responses[l].value[1], cl, cr);
                 let w = Turned::new(self.responses[r].value[0], cr, cl);
                 let [l0, l1] = v.angles_by(self.responses[l].by_angle[1], cl, cr);
