@@ -97,6 +97,9 @@ typedef struct {
   // Not 0: ends of Béziers that aren't knots may lie off the curve, within the accuracy, so that there
   // are fewer. Default 0.
   int free_joints;
+  // Not 0: where every curve as asked that was found loops (a segment is longer than four chords), one knot
+  // or two are relaxed instead if that gives a curve without. Default 0.
+  int no_loops;
 } fc_options;
 
 // A knot: a point that the curve passes through.

@@ -108,6 +108,9 @@ pub struct fc_options {
     /// Not 0: ends of Béziers that aren't knots may lie off the curve, within the accuracy, so that there
     /// are fewer. Default 0.
     pub free_joints: c_int,
+    /// Not 0: where every curve as asked that was found loops (a segment is longer than four chords), one knot
+    /// or two are relaxed instead if that gives a curve without. Default 0.
+    pub no_loops: c_int,
 }
 
 /// The kinds of pieces that a contour is made of.
@@ -314,6 +317,7 @@ impl fc_options {
         at_extrema: 0,
         at_inflections: 0,
         free_joints: 0,
+        no_loops: 0,
     };
 
     /// The caller's options: of an older caller the members that it knows, of a newer one those known here.

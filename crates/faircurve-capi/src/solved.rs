@@ -157,7 +157,9 @@ impl Checked {
             ..Options::new(0.0)
         };
         let accuracy = (accuracy > 0.0).then_some(accuracy);
-        Ok(Checked { accuracy, effort: Effort::times(effort), beziers })
+        let effort = Effort::times(effort);
+        let effort = if options.no_loops != 0 { effort.avoiding_loops() } else { effort };
+        Ok(Checked { accuracy, effort, beziers })
     }
 }
 

@@ -36,6 +36,11 @@ export { addSplines } from "./solver.js";
 export interface SolveOptions {
   /** How far to search for hard contours before relaxing, times the default; 1 is at most about 50 ms a contour. */
   effort?: number;
+  /**
+   * Whether, where every curve as asked that was found loops (a segment is longer than four chords), one knot or two
+   * are relaxed instead if that gives a curve without; left out: no. The curve's `relaxed` says where.
+   */
+  noLoops?: boolean;
 }
 
 /** A solved glyph. */
@@ -65,7 +70,6 @@ export interface Solution {
 export function solve(document: Document, options: SolveOptions = {}): Solution {
   if (typeof document !== "object" || document === null) throw wrongType("the document", "an object", document);
   const { faircurve, glyphs, contours } = document;
-  const { effort = 1 } = options;
   if (faircurve !== undefined && faircurve !== 1) {
     throw new FaircurveError(`version ${String(faircurve)} is unknown`, "this program reads version 1");
   }
@@ -76,7 +80,7 @@ export function solve(document: Document, options: SolveOptions = {}): Solution 
   if (all === undefined) {
     throw new FaircurveError("the document has neither `glyphs` nor `contours`", 'add `"contours": […]`');
   }
-  const solved = all.map((glyph, index) => solveGlyph(glyph, glyphs ? glyphPlace(glyph, index) : "", document, effort));
+  const solved = all.map((glyph, index) => solveGlyph(glyph, glyphs ? glyphPlace(glyph, index) : "", document, options));
   return { glyphs: solved, contours: solved.flatMap((glyph) => glyph.contours) };
 }
 
@@ -84,19 +88,20 @@ function glyphPlace(glyph: Glyph, index: number): string {
   return glyph.name ? `glyph \`${glyph.name}\`, ` : `glyph ${index}, `;
 }
 
-function solveGlyph(glyph: Glyph, place: string, document: Document, effort: number): SolvedGlyph {
+function solveGlyph(glyph: Glyph, place: string, document: Document, options: SolveOptions): SolvedGlyph {
   const contours = glyph.contours.map((contour, index) =>
-    solveContour(contour, `${place}contour ${index}, `, document, effort),
+    solveContour(contour, `${place}contour ${index}, `, document, options),
   );
   return { name: glyph.name ?? "", layer: glyph.layer ?? "", contours };
 }
 
-function solveContour(contour: Contour, place: string, document: Document, effort: number): Curve {
+function solveContour(contour: Contour, place: string, document: Document, options: SolveOptions): Curve {
   if (!Array.isArray(contour?.knots)) throw wrongType(`${place}\`knots\``, "a list", contour?.knots);
   return checked(() => {
     const { name, built, solver } = splineOf(contour, document);
     const closed = contour.closed ?? false;
-    return new Curve(solver.solve(built, knotRows(contour.knots, place), closed, effort), name, closed);
+    const { effort = 1, noLoops = false } = options;
+    return new Curve(solver.solve(built, knotRows(contour.knots, place), closed, effort, noLoops), name, closed);
   });
 }
 

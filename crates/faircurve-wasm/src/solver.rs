@@ -117,9 +117,17 @@ pub struct Built {
 
 /// The canonical curve through the knots.
 #[wasm_bindgen]
-pub fn solve(built: &Built, knots: &[f64], closed: bool, effort: f64) -> Result<Solved> {
+pub fn solve(
+    built: &Built,
+    knots: &[f64],
+    closed: bool,
+    effort: f64,
+    no_loops: bool,
+) -> Result<Solved> {
     let contour = Contour { knots: knots_of(knots), closed };
-    let solution = solve_with(&contour, &*built.spline, Effort::times(effort));
+    let effort = Effort::times(effort);
+    let effort = if no_loops { effort.avoiding_loops() } else { effort };
+    let solution = solve_with(&contour, &*built.spline, effort);
     solution.map(Solved::new).map_err(|e| input_error(&e))
 }
 

@@ -85,6 +85,15 @@ test("what can't be met is relaxed and says why", () => {
   assert.deepEqual(adapted[0], { asked: "g4", got: "g2", knot: 1 });
 });
 
+test("what has to loop as asked is relaxed at one place or two instead when loops aren't wanted", () => {
+  const knots = [[0, 0], [-36, 76], [-51, 215], [-37, 336]].map(([x, y]) => ({ x, y, join: "g4" }));
+  const line = { contours: [{ closed: true, knots }] };
+  assert.equal(solve(line).contours[0].status, "solved");
+  const { relaxed } = solve(line, { noLoops: true }).contours[0];
+  assert.ok(relaxed.length === 1 || relaxed.length === 2);
+  assert.ok(relaxed.every(({ reason }) => reason.includes("loops between two knots")));
+});
+
 test("a live contour follows edits, refuses nonsense, undoes", () => {
   const live = new LiveContour({ closed: true, knots: circle(12) });
   const start = live.snapshot();

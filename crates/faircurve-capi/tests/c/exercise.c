@@ -165,6 +165,20 @@ int main(int argc, char **argv)
         fc_document_free(document);
     }
 
+    /* What has to loop as asked is relaxed at one place or two instead, when loops aren't wanted. */
+    const fc_knot line[] = {{0, 0, FC_JOIN_G4}, {-36, 76, FC_JOIN_G4}, {-51, 215, FC_JOIN_G4}, {-37, 336, FC_JOIN_G4}};
+    fc_options_default(&options, sizeof options);
+    document = fc_document_new();
+    CHECK(fc_document_add_contour(document, line, 4, 1) == FC_OK);
+    for (int no_loops = 0; no_loops < 2; no_loops++) {
+        options.no_loops = no_loops;
+        CHECK(fc_solve(document, &options, &solution, NULL) == FC_OK);
+        size_t relaxed = fc_relaxation_count(solution, 0);
+        CHECK(no_loops ? relaxed == 1 || relaxed == 2 : relaxed == 0);
+        fc_solution_free(solution);
+    }
+    fc_document_free(document);
+
     fc_document_free(NULL), fc_solution_free(NULL), fc_string_free(NULL);
     CHECK(fc_contour_count(NULL) == 0 && fc_glyph_name(NULL, 0) == NULL);
     CHECK(fc_solve(NULL, NULL, &solution, NULL) == FC_NULL_ARGUMENT);
