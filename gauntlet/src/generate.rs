@@ -139,12 +139,14 @@ pub(crate) fn classes() -> Vec<Class> {
             }
         }
     }
-    let later: [(&str, Points, usize, [bool; 2]); 5] = [
+    let later: [(&str, Points, usize, [bool; 2]); 7] = [
         ("tiny-corner", tiny_corner, 8, [false, true]),
         ("alternating-1e6", alternating, 10, [true, true]),
         ("spiral", spiral, 160, [false, true]),
         ("zigzag", zigzag, 12, [false, true]),
         ("five", five, 5, [true, true]),
+        ("alternating-1e6", alternating, 64, [true, true]),
+        ("alternating-1e6", alternating, 512, [true, true]),
     ];
     for (what, points, size, [open, closed]) in later {
         for joins in smooth {

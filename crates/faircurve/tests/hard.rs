@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use faircurve::kurbo::{Affine, Point};
+use faircurve::kurbo::{Affine, Point, Vec2};
 use faircurve::{Contour, Effort, Join, Knot, Solution, Stage, Status, catalog, solve, solve_with};
 
 fn spiro(contour: &Contour) -> Solution {
@@ -118,6 +118,22 @@ fn knots_all_but_in_one_place_are_joined_as_asked() {
         assert_eq!(solution.report.stage, Stage::Fused, "{name}");
         assert!(longest(&solution) < 4.0, "{name}: {}", longest(&solution));
     }
+}
+
+/// A walk of 32 places, each of two knots a thousandth of a step apart. All pairs are fused at once: one after
+/// the other, each with a share of what the one before had to spend, most would be left.
+#[test]
+fn many_short_segments_are_fused_at_once() {
+    let (mut at, mut heading) = (Point::ORIGIN, 0.0);
+    let knots = (0..64).map(|i| {
+        let here = at;
+        heading += (f64::from(i) * f64::from(i) * 0.7).sin();
+        at += Vec2::from_angle(heading) * if i % 2 == 0 { 100.0 } else { 0.1 };
+        Knot::new(here).join(Join::G4)
+    });
+    let solution = spiro(&Contour::closed(knots));
+    assert_eq!(solution.report.status(), Status::Solved, "{:?}", solution.report);
+    assert_eq!(solution.report.stage, Stage::Fused);
 }
 
 /// Chords in ratio 1e6 may need curves that no step of the search makes alone: chains are bridged within

@@ -337,53 +337,59 @@ impl<'a> RunSystem<'a> {
         (is_joined(start) && is_joined(end)).then(|| [self.chords[before], self.chords[after]])
     }
 
-    /// How long a segment is in terms of the shorter of its neighbours; infinite where it has only
-    /// one, or isn't joined to both of them in all of κ, κ′, κ″.
-    pub(super) fn shortness(&self, segment: usize) -> f64 {
-        match self.smooth_neighbours(segment) {
-            Some([before, after]) => self.chords[segment] / before.min(after),
-            None => f64::INFINITY,
-        }
+    /// For each knot, whether the segment that leaves it is shorter than this share of both its
+    /// neighbours, and joined to them in all of κ, κ′, κ″. No two of these are next to each other.
+    pub(super) fn short_segments(&self, share: f64) -> Vec<bool> {
+        let is_short = |segment: usize| {
+            let neighbours = self.smooth_neighbours(segment);
+            neighbours.is_some_and(|[a, b]| self.chords[segment] < share * a.min(b))
+        };
+        (0..self.knots.len()).map(|i| i < self.chords.len() && is_short(i)).collect()
     }
 
-    /// The same run, from straight segments, with the two knots of a segment made one that has the
-    /// segment's direction: joined in κ and κ′, as the two are in the limit.
-    pub(super) fn fused(&self, segment: usize) -> Self {
+    /// The same run, from straight segments, with the two knots of each [short
+    /// segment](Self::short_segments) made one that has the segment's direction: joined in κ and κ′, as
+    /// the two are in the limit.
+    pub(super) fn fused(&self, is_short: &[bool]) -> Self {
         let n = self.knots.len();
-        let (start, end) = (segment, (segment + 1) % n);
         let mut fused = self.clone();
-        let knot = &mut fused.knots[end];
-        knot.equations = [
-            Equation::Condition(Condition::Continuous(Quantity::FirstDerivative)),
-            Equation::Direction(knot.turn),
-        ];
-        knot.turn += self.knots[start].turn;
-        let sides = self.smooth_neighbours(segment);
-        knot.set_chords(sides.map(|[before, _]| before), sides.map(|[_, after]| after));
-        fused.knots.remove(start);
-        fused.chords.remove(segment);
+        for start in (0..n).filter(|&i| is_short[i]) {
+            let knot = &mut fused.knots[(start + 1) % n];
+            knot.equations = [
+                Equation::Condition(Condition::Continuous(Quantity::FirstDerivative)),
+                Equation::Direction(knot.turn),
+            ];
+            knot.turn += self.knots[start].turn;
+            let sides = self.smooth_neighbours(start);
+            knot.set_chords(sides.map(|[before, _]| before), sides.map(|[_, after]| after));
+        }
+        let mut of_knots = is_short.iter();
+        fused.knots.retain(|_| of_knots.next() == Some(&false));
+        let mut of_segments = is_short.iter();
+        fused.chords.retain(|_| of_segments.next() == Some(&false));
         fused.parameters.truncate(fused.chords.len());
         fused.parameters.fill([0.0; 4]);
-        fused.mismatches.truncate(n - 1);
+        fused.mismatches.truncate(fused.knots.len());
         fused
     }
 
     /// Takes over segments and windings from a system that [`fused`](Self::fused) made, with the
-    /// segment that it lacks straight.
-    pub(super) fn take_from_fused(&mut self, fused: &Self, segment: usize) {
+    /// segments that it lacks straight.
+    pub(super) fn take_from_fused(&mut self, fused: &Self, is_short: &[bool]) {
         let n = self.knots.len();
-        let (start, end) = (segment, (segment + 1) % n);
-        let leave = self.knots[end].turn;
-        self.parameters[segment] = [0.0; 4];
-        let kept = (0..n).filter(|&i| i != start);
-        for (other, i) in kept.enumerate() {
-            self.knots[i].turn = fused.knots[other].turn;
+        self.parameters.fill([0.0; 4]);
+        for (other, i) in (0..n).filter(|&i| !is_short[i]).enumerate() {
+            let turn = fused.knots[other].turn;
+            match neighbours(i, n, self.closed).0 {
+                Some(start) if is_short[start] => {
+                    self.knots[start].turn = turn - self.knots[i].turn;
+                }
+                _ => self.knots[i].turn = turn,
+            }
             if let Some(parameters) = fused.parameters.get(other) {
                 self.parameters[i] = *parameters;
             }
         }
-        self.knots[start].turn = self.knots[end].turn - leave;
-        self.knots[end].turn = leave;
         self.evaluate();
     }
 

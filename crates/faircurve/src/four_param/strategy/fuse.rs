@@ -3,8 +3,8 @@
 //! As the segment between them vanishes it becomes straight, and says nothing but which way the
 //! curve goes there. κ and κ′ are continuous in the limit; κ″ may jump, since the segment's own κ‴
 //! has room to be as large as it must. That is a G4 knot with a given tangent. So the run with one
-//! such knot for the two is solved, by whatever it takes; with the short segment put back, straight,
-//! the whole settles in a few steps.
+//! such knot for each such pair is solved, by whatever it takes; with the short segments put back,
+//! straight, the whole settles in a few steps.
 
 use super::{Best, LONG, Rescue};
 use crate::four_param::budget::Budget;
@@ -13,8 +13,8 @@ use crate::numeric::block_tridiagonal::BlockTridiagonal;
 use crate::spline::Stage;
 
 impl Rescue {
-    /// Solves the run with its shortest segment fused, and lets the whole settle from there; `None`
-    /// where no segment is so short.
+    /// Solves the run with its short segments fused, and lets the whole settle from there; `None` where
+    /// no segment is so short, or too little is left to spend.
     pub(super) fn fuse(
         &mut self,
         system: &mut RunSystem<'_>,
@@ -26,22 +26,24 @@ impl Rescue {
         const SHORT: f64 = 0.01;
         /// Share of the budget for the fused run. Anything from 0.15 to 0.6 solves about as many.
         const SHARE: f64 = 0.3;
-        if system.knots.len() <= 3 {
+        /// Less than this for each segment doesn't even pay for Newton's method.
+        const COST: usize = 16;
+        let segments = system.parameters.len();
+        let part = (self.budget.left() as f64 * SHARE) as usize;
+        if system.knots.len() <= 3 || part < segments * COST {
             return None;
         }
-        let shortness = (0..system.parameters.len()).map(|i| (system.shortness(i), i));
-        let (_, segment) = shortness
-            .filter(|&(shortness, _)| shortness < SHORT)
-            .min_by(|a, b| a.0.total_cmp(&b.0))?;
-        let mut fused = system.fused(segment);
-        let mut rest = std::mem::take(&mut self.budget);
-        let part = Budget::new((rest.left() as f64 * SHARE) as usize);
-        rest.spend(part.left());
-        self.budget = part;
+        let is_short = system.short_segments(SHORT);
+        if !is_short.contains(&true) {
+            return None;
+        }
+        let mut fused = system.fused(&is_short);
+        self.budget.spend(part);
+        let rest = std::mem::replace(&mut self.budget, Budget::new(part));
         let mut smaller = BlockTridiagonal::new(fused.knots.len(), fused.is_closed());
         self.run(&mut fused, &mut smaller);
         self.budget.put_back(rest);
-        system.take_from_fused(&fused, segment);
+        system.take_from_fused(&fused, &is_short);
         let residual = self.newton(system, matrix, LONG).residual;
         Some(Best::of(system, residual, Stage::Fused))
     }

@@ -4,8 +4,8 @@
 //! 1. **Newton** from straight segments, each segment's step limited on its own, so that good
 //!    stretches settle while bad ones still bounce. Nearly all real contours end here. Two and three
 //!    knots, and knots on a circle, start from arcs, which are the solution.
-//! 2. **Fusing** ([`fuse`]), where a segment is much shorter than its neighbours: the run in which its
-//!    two knots are one is solved by all these stages, and the segment put back.
+//! 2. **Fusing** ([`fuse`]), where segments are much shorter than their neighbours: the run in which
+//!    the two knots of each are one is solved by all these stages, and the segments put back.
 //! 3. **Bridging** ([`bridge`]), where a segment is much longer than its neighbours: the chains on
 //!    both sides are solved alone, and the long segment is hung between them in its straightest form.
 //! 4. **Mending** ([`mend`]), where few knots are bad. A stretch that doesn't settle, or loops, is
