@@ -76,7 +76,7 @@ impl Rescue {
         chains.iter_mut().all(|(first, chain)| {
             let mut matrix = BlockTridiagonal::new(chain.knots.len(), false);
             self.newton(chain, &mut matrix, LONG);
-            if Badness::of(chain).unsettled > 0 {
+            if Badness::of(chain).unsettled > 0 && !self.budget.is_spent() {
                 self.bridge_above(chain, PROMINENT_IN_CHAIN);
             }
             let unsettled = Badness::of(chain).unsettled;
