@@ -5,6 +5,7 @@ use std::time::Instant;
 use serde_json::{Map, Value};
 
 use crate::fonts_input::FontContour;
+use crate::hostile_inputs::Inputs;
 use crate::report::{Report, table};
 use crate::{Failure, against_search, classes, fonts, hostile, tangents, time, yardstick};
 
@@ -30,7 +31,7 @@ pub(crate) fn run(font_contours: &[FontContour]) -> Result<Report, Failure> {
         ("against-search", &|| {
             against_search::run(&yardstick::default_folder(), "", font_contours)
         }),
-        ("hostile", &|| Ok(hostile::run(0..HOSTILE, 0)?.1)),
+        ("hostile", &|| Ok(hostile::run(0..HOSTILE, Inputs::few(0))?.1)),
     ];
     let has_fonts = !font_contours.is_empty();
     let parts = about_fonts.iter().filter(|_| has_fonts).chain(&others);

@@ -16,17 +16,27 @@ use serde_json::json;
 
 use crate::Failure;
 use crate::clock::Clock;
-use crate::hostile_inputs::{DISTRIBUTIONS, Input, SPLINES};
+use crate::hostile_inputs::{DISTRIBUTIONS, FEW_KNOTS, Input, Inputs, SPLINES};
 use crate::progress::Progress;
 use crate::report::{Report, percent, table, tiny};
 use crate::rivals::Ours;
 
-/// Seconds of wall time from which a solve is timed again, alone: a busy machine may have interrupted
-/// it.
-const SUSPICIOUS: f64 = 0.25;
-
-/// What a solve may take, in seconds: 50 ms beyond the plain solve, which takes microseconds here.
+/// What a solve may take, in seconds: 50 ms beyond the plain solve, which takes microseconds with few
+/// knots.
 const LIMIT: f64 = 0.05;
+
+/// What it may take for each further knot: each round of relaxing makes a plain solve, whatever has been
+/// spent.
+const LIMIT_A_KNOT: f64 = 2e-4;
+
+/// Times the limit, in wall time, from which a solve is timed again, alone: a busy machine may have
+/// interrupted it.
+const SUSPICIOUS: f64 = 5.0;
+
+/// The limit for so many knots.
+fn limit(knots: usize) -> f64 {
+    LIMIT + LIMIT_A_KNOT * knots.saturating_sub(FEW_KNOTS) as f64
+}
 
 /// Cases that a thread takes at a time.
 const CHUNK: usize = 256;
@@ -128,33 +138,42 @@ type Splines = BTreeMap<&'static str, Box<dyn Spline>>;
 #[serde(deny_unknown_fields)]
 pub(crate) struct Chunk {
     seed: u64,
+    #[serde(default = "few_knots")]
+    most_knots: usize,
     cases: Range<usize>,
     /// By the distribution's name.
     distributions: BTreeMap<String, Tally>,
     alarms: Vec<String>,
 }
 
-/// Runs a range of inputs on all cores. The counts depend on the range and `seed` alone; times on
+/// What lines without it have.
+fn few_knots() -> usize {
+    FEW_KNOTS
+}
+
+/// Runs a range of inputs on all cores. The counts depend on the range and the inputs alone; times on
 /// the machine.
-pub(crate) fn run(cases: Range<usize>, seed: u64) -> Result<(Chunk, Report), Failure> {
+pub(crate) fn run(cases: Range<usize>, inputs: Inputs) -> Result<(Chunk, Report), Failure> {
     let splines: Splines = SPLINES
         .iter()
         .map(|name| Ok((*name, catalog::spline(name)?)))
         .collect::<Result<_, catalog::CatalogError>>()
         .map_err(|error| Failure { message: error.to_string(), hint: error.hint() })?;
-    let mut outcome = without_panic_messages(|| on_all_cores(cases.clone(), seed, &splines));
+    let mut outcome = without_panic_messages(|| on_all_cores(cases.clone(), inputs, &splines));
     for case in std::mem::take(&mut outcome.suspicious) {
-        let seconds = timed_alone(&input(seed, case).0, &splines);
-        if seconds > LIMIT {
+        let input = input(inputs, case).0;
+        let seconds = timed_alone(&input, &splines);
+        if seconds > limit(input.contour.knots.len()) {
             outcome.tallies[case % DISTRIBUTIONS.len()].over_time += 1;
             outcome.offences.push((Offence::OverTime, case, format!("{:.0} ms", 1e3 * seconds)));
         }
     }
     outcome.offences.sort();
-    let (alarms, notable) = named(seed, &outcome);
+    let (alarms, notable) = named(inputs, &outcome);
     let names = DISTRIBUTIONS.iter().map(|distribution| distribution.name.to_owned());
     let distributions = names.zip(outcome.tallies).collect();
-    let chunk = Chunk { seed, cases, distributions, alarms };
+    let Inputs { seed, most_knots } = inputs;
+    let chunk = Chunk { seed, most_knots, cases, distributions, alarms };
     let report = Report { notable, ..report(&[&chunk]) };
     Ok((chunk, report))
 }
@@ -199,6 +218,9 @@ fn chunks(text: &str) -> Result<Vec<Chunk>, String> {
         if pair[0].seed != pair[1].seed {
             return Err(format!("seeds {} and {} are mixed", pair[0].seed, pair[1].seed));
         }
+        if pair[0].most_knots != pair[1].most_knots {
+            return Err("runs with other numbers of knots are mixed".to_owned());
+        }
         if pair[1].cases.start < pair[0].cases.end {
             return Err(format!("case {} is there twice", pair[1].cases.start));
         }
@@ -207,9 +229,9 @@ fn chunks(text: &str) -> Result<Vec<Chunk>, String> {
 }
 
 /// The input of a case and its distribution's name.
-fn input(seed: u64, case: usize) -> (Input, &'static str) {
+fn input(inputs: Inputs, case: usize) -> (Input, &'static str) {
     let distribution = &DISTRIBUTIONS[case % DISTRIBUTIONS.len()];
-    (distribution.input(seed, case), distribution.name)
+    (distribution.input(inputs, case), distribution.name)
 }
 
 /// Panics are counted, not printed.
@@ -221,7 +243,7 @@ fn without_panic_messages<T>(work: impl FnOnce() -> T) -> T {
     result
 }
 
-fn on_all_cores(cases: Range<usize>, seed: u64, splines: &Splines) -> Outcome {
+fn on_all_cores(cases: Range<usize>, inputs: Inputs, splines: &Splines) -> Outcome {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let next = AtomicUsize::new(0);
     let chunks = cases.len().div_ceil(CHUNK);
@@ -236,7 +258,7 @@ fn on_all_cores(cases: Range<usize>, seed: u64, splines: &Splines) -> Outcome {
             }
             let start = cases.start + chunk * CHUNK;
             for case in start..(start + CHUNK).min(cases.end) {
-                try_case(seed, case, splines, &mut outcome);
+                try_case(inputs, case, splines, &mut outcome);
             }
             if let Ok(mut progress) = progress.lock() {
                 progress.step("chunks");
@@ -264,8 +286,8 @@ fn on_all_cores(cases: Range<usize>, seed: u64, splines: &Splines) -> Outcome {
 }
 
 /// Solves and judges one case.
-fn try_case(seed: u64, case: usize, splines: &Splines, outcome: &mut Outcome) {
-    let Input { contour, spline } = input(seed, case).0;
+fn try_case(inputs: Inputs, case: usize, splines: &Splines, outcome: &mut Outcome) {
+    let Input { contour, spline } = input(inputs, case).0;
     let spline = &*splines[spline];
     let tally = &mut outcome.tallies[case % DISTRIBUTIONS.len()];
     let mut offend = |offence, what| outcome.offences.push((offence, case, what));
@@ -277,7 +299,7 @@ fn try_case(seed: u64, case: usize, splines: &Splines, outcome: &mut Outcome) {
     if seconds > tally.slowest_seconds {
         (tally.slowest_seconds, tally.slowest_case) = (seconds, case);
     }
-    if seconds > SUSPICIOUS {
+    if seconds > SUSPICIOUS * limit(contour.knots.len()) {
         outcome.suspicious.push(case);
     }
     let solution = match solved {
@@ -352,7 +374,7 @@ fn kind(error: &InputError) -> &'static str {
 
 /// What went wrong, by name, and the inputs that it went wrong on; and the slowest of each
 /// distribution.
-fn named(seed: u64, outcome: &Outcome) -> (Vec<String>, Vec<(String, Document)>) {
+fn named(inputs: Inputs, outcome: &Outcome) -> (Vec<String>, Vec<(String, Document)>) {
     let mut named: BTreeMap<Offence, usize> = BTreeMap::new();
     let (mut alarms, mut notable) = (Vec::new(), Vec::new());
     for (offence, case, what) in &outcome.offences {
@@ -361,7 +383,7 @@ fn named(seed: u64, outcome: &Outcome) -> (Vec<String>, Vec<(String, Document)>)
         if *count > MOST_NAMED {
             continue;
         }
-        let (input, distribution) = input(seed, *case);
+        let (input, distribution) = input(inputs, *case);
         let name = format!("{} {distribution} case {case} {}", offence.name(), input.spline);
         alarms.push(format!("{name}: {what}"));
         notable.push((name, document(input)));
@@ -374,7 +396,7 @@ fn named(seed: u64, outcome: &Outcome) -> (Vec<String>, Vec<(String, Document)>)
     for (distribution, tally) in DISTRIBUTIONS.iter().zip(&outcome.tallies) {
         let case = tally.slowest_case;
         let name = format!("slowest {} case {case}", distribution.name);
-        notable.push((name, document(distribution.input(seed, case))));
+        notable.push((name, document(distribution.input(inputs, case))));
     }
     (alarms, notable)
 }
@@ -404,23 +426,24 @@ fn report(chunks: &[&Chunk]) -> Report {
         "slowest ms",
         "case",
     ];
-    let seed = chunks.first().map_or(0, |chunk| chunk.seed);
+    let (seed, most_knots) =
+        chunks.first().map_or((0, FEW_KNOTS), |chunk| (chunk.seed, chunk.most_knots));
     let refusals = all.refused.iter().map(|(kind, count)| [kind.clone(), count.to_string()]);
     let text = [
         table(header, rows.collect()),
         format!(
             "\nPer cent of the cases. false: called solved, and isn't; misreported: relaxed, and what is said \
              to hold instead doesn't. ms:\nwall time of the solve beside the other threads; over time: \
-             above {} ms and, alone, above {} ms. Seed {seed}.\n\n",
-            1e3 * SUSPICIOUS,
+             {SUSPICIOUS} times, and alone once, {} ms and {} ms for every knot above {FEW_KNOTS}. Up to \
+             {most_knots} knots; seed {seed}.\n\n",
             1e3 * LIMIT,
+            1e3 * LIMIT_A_KNOT,
         ),
         table(["refused as", "cases"], refusals.collect()),
     ]
     .concat();
     let alarms: Vec<String> = chunks.iter().flat_map(|chunk| chunk.alarms.clone()).collect();
-    let json =
-        json!({ "cases": all.cases, "seed": seed, "distributions": by_name, "alarms": alarms });
+    let json = json!({ "cases": all.cases, "seed": seed, "most_knots": most_knots, "distributions": by_name, "alarms": alarms });
     Report { text, json, notable: Vec::new(), alarms }
 }
 
@@ -459,21 +482,23 @@ mod tests {
 
     #[test]
     fn nothing_panics_and_all_is_finite() {
-        let outcome = on_all_cores(0..1100, 0, &splines());
+        let outcome = on_all_cores(0..1100, Inputs::few(0), &splines());
         let worst = outcome.offences.iter().map(|(offence, ..)| *offence).min();
         assert!(worst.is_none_or(|offence| offence >= Offence::False), "{:?}", outcome.offences);
     }
 
     #[test]
     fn nothing_happens_that_must_never() {
-        let (_, report) = run(0..2000, 0).unwrap_or_else(|failure| panic!("{}", failure.message));
+        let (_, report) =
+            run(0..2000, Inputs::few(0)).unwrap_or_else(|failure| panic!("{}", failure.message));
         assert_eq!(report.alarms, [""; 0]);
     }
 
     #[test]
     fn chunks_add_up_and_none_counts_twice() {
         let chunk = |cases: Range<usize>| {
-            let run = run(cases, 3).unwrap_or_else(|failure| panic!("{}", failure.message));
+            let run =
+                run(cases, Inputs::few(3)).unwrap_or_else(|failure| panic!("{}", failure.message));
             serde_json::to_string(&run.0).unwrap()
         };
         let counts = |text: &str| {
@@ -495,12 +520,12 @@ mod tests {
 
     #[test]
     fn counts_do_not_depend_on_the_order_of_work() {
-        let whole = on_all_cores(0..1100, 5, &splines());
+        let whole = on_all_cores(0..1100, Inputs::few(5), &splines());
         let mut parts =
             Outcome { tallies: vec![Tally::default(); DISTRIBUTIONS.len()], ..Outcome::default() };
         let splines = splines();
         for case in (0..1100).rev() {
-            try_case(5, case, &splines, &mut parts);
+            try_case(Inputs::few(5), case, &splines, &mut parts);
         }
         for (a, b) in whole.tallies.iter().zip(&parts.tallies) {
             assert_eq!((a.cases, a.solved, a.relaxed), (b.cases, b.solved, b.relaxed));

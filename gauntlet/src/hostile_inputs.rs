@@ -13,8 +13,33 @@ use crate::generate::Random;
 /// of the catalogue meets hostile input in the library's tests `laws` and `shapes`.
 pub(crate) const SPLINES: [&str; 2] = ["spiro", "euler"];
 
-/// The most knots of a contour.
-const MOST_KNOTS: usize = 8;
+/// The most knots of a contour where nothing else is said.
+pub(crate) const FEW_KNOTS: usize = 8;
+
+/// Which inputs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Inputs {
+    /// Other ones for every number.
+    pub(crate) seed: u64,
+    /// The most knots of a contour. Up to [`FEW_KNOTS`] all numbers of knots are as likely, beyond all
+    /// decades.
+    pub(crate) most_knots: usize,
+}
+
+impl Inputs {
+    /// Those of a seed, with few knots.
+    pub(crate) fn few(seed: u64) -> Inputs {
+        Inputs { seed, most_knots: FEW_KNOTS }
+    }
+
+    fn count(self, random: &mut Random) -> usize {
+        if self.most_knots <= FEW_KNOTS {
+            1 + random.below(self.most_knots)
+        } else {
+            decades(random, 0.0, (self.most_knots as f64).log10()).round() as usize
+        }
+    }
+}
 
 /// A way to draw points.
 #[derive(Debug)]
@@ -48,11 +73,12 @@ pub(crate) struct Input {
 }
 
 impl Distribution {
-    /// The input of that number: 1 to 8 knots, open or closed, either spline, joins all the same or
-    /// each drawn, and in a third of the cases some tangents and curvatures given.
-    pub(crate) fn input(&self, seed: u64, case: usize) -> Input {
-        let mut random = Random::for_case(self.name, case ^ (seed as usize).rotate_left(32));
-        let count = 1 + random.below(MOST_KNOTS);
+    /// The input of that number: open or closed, either spline, joins all the same or each drawn, and
+    /// in a third of the cases some tangents and curvatures given.
+    pub(crate) fn input(&self, inputs: Inputs, case: usize) -> Input {
+        let seed = (inputs.seed as usize).rotate_left(32);
+        let mut random = Random::for_case(self.name, case ^ seed);
+        let count = inputs.count(&mut random);
         let points = (self.points)(&mut random, count);
         let spline = SPLINES[random.below(SPLINES.len())];
         let common = (random.below(2) == 0).then(|| join(&mut random));
@@ -315,7 +341,7 @@ mod tests {
     #[test]
     fn inputs_are_deterministic_and_differ_by_seed_and_case() {
         for distribution in DISTRIBUTIONS {
-            let text = |seed, case| format!("{:?}", distribution.input(seed, case));
+            let text = |seed, case| format!("{:?}", distribution.input(Inputs::few(seed), case));
             assert_eq!(text(1, 7), text(1, 7));
             assert_ne!(text(1, 7), text(2, 7), "{}", distribution.name);
             assert_ne!(text(1, 7), text(1, 8), "{}", distribution.name);
@@ -330,12 +356,12 @@ mod tests {
             (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
         for case in 0..400 {
             let Input { contour, spline } =
-                DISTRIBUTIONS[case % DISTRIBUTIONS.len()].input(0, case);
+                DISTRIBUTIONS[case % DISTRIBUTIONS.len()].input(Inputs::few(0), case);
             sizes.insert(contour.knots.len());
             splines.insert(spline);
             joins.extend(contour.knots.iter().map(|knot| knot.join));
         }
-        assert_eq!(sizes, (1..=MOST_KNOTS).collect());
+        assert_eq!(sizes, (1..=FEW_KNOTS).collect());
         assert_eq!(joins.len(), Join::ALL.len() + 1);
         assert_eq!(splines.len(), SPLINES.len());
     }

@@ -30,6 +30,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+use hostile_inputs::{FEW_KNOTS, Inputs};
 use report::Report;
 
 /// Runs faircurve and libspiro on the same contours.
@@ -120,6 +121,9 @@ enum Command {
         /// Other inputs for every number
         #[arg(long, default_value_t = 0)]
         seed: u64,
+        /// The most knots of a contour; beyond 8, as many contours have 10 to 100 knots as 100 to 1000
+        #[arg(long, default_value_t = FEW_KNOTS as u32, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+        knots: u32,
     },
     /// Adds up what runs of `hostile` have appended to a file
     HostileSum {
@@ -238,8 +242,9 @@ fn run(arguments: &Arguments) -> Result<Report, Failure> {
         Command::Bezier { random: Some(cases), seed, .. } => Ok(bezier::random(*cases, *seed)),
         Command::Bezier { rounds, .. } => Ok(bezier::run(*rounds)),
         Command::BezierFonts { files, opt } => bezier_fonts::run(&fonts_input::read(files)?, *opt),
-        Command::Hostile { cases, from, append, seed } => {
-            let (chunk, report) = hostile::run(*from..from.saturating_add(*cases), *seed)?;
+        Command::Hostile { cases, from, append, seed, knots } => {
+            let inputs = Inputs { seed: *seed, most_knots: *knots as usize };
+            let (chunk, report) = hostile::run(*from..from.saturating_add(*cases), inputs)?;
             if let Some(file) = append {
                 hostile::append(&chunk, file)?;
             }
