@@ -434,8 +434,8 @@ fn report(chunks: &[&Chunk]) -> Report {
         format!(
             "\nPer cent of the cases. false: called solved, and isn't; misreported: relaxed, and what is said \
              to hold instead doesn't. ms:\nwall time of the solve beside the other threads; over time: \
-             {SUSPICIOUS} times, and alone once, {} ms and {} ms for every knot above {FEW_KNOTS}. Up to \
-             {most_knots} knots; seed {seed}.\n\n",
+             above {} ms and {} ms for every knot above {FEW_KNOTS}, alone, and {SUSPICIOUS} times that \
+             beside other work.\nUp to {most_knots} knots; seed {seed}.\n\n",
             1e3 * LIMIT,
             1e3 * LIMIT_A_KNOT,
         ),
@@ -443,7 +443,9 @@ fn report(chunks: &[&Chunk]) -> Report {
     ]
     .concat();
     let alarms: Vec<String> = chunks.iter().flat_map(|chunk| chunk.alarms.clone()).collect();
-    let json = json!({ "cases": all.cases, "seed": seed, "most_knots": most_knots, "distributions": by_name, "alarms": alarms });
+    let json = json!({
+        "cases": all.cases, "seed": seed, "most_knots": most_knots, "distributions": by_name, "alarms": alarms,
+    });
     Report { text, json, notable: Vec::new(), alarms }
 }
 

@@ -38,9 +38,8 @@ pub struct Measured<C> {
     curve: C,
     panels: Vec<Panel>,
     length: f64,
-    /// Its direction where it ends, and as a unit vector just after.
+    /// Its direction where it ends.
     end: f64,
-    onward: Complex64,
     breaks: Vec<f64>,
 }
 
@@ -67,10 +66,9 @@ impl<C: ParametricCurve> Measured<C> {
     /// Measures a curve. Takes sixteen evaluations of the velocity where it is gentle, some 50 where that
     /// isn't known but found.
     pub fn new(curve: C) -> Self {
-        let onward = tangent(&curve, 0.0, true);
-        let (panels, breaks) = (Vec::new(), Vec::new());
-        let end = argument(onward);
-        let mut measured = Measured { curve, panels, length: 0.0, end, onward, breaks };
+        let start = argument(tangent(&curve, 0.0, true));
+        let mut measured =
+            Measured { curve, panels: Vec::new(), length: 0.0, end: start, breaks: Vec::new() };
         let whole = measured.arc(0.0, 1.0);
         if measured.curve.is_gentle() {
             measured.push(0.0, 1.0, whole);
@@ -96,12 +94,11 @@ impl<C: ParametricCurve> Measured<C> {
     fn push(&mut self, u: f64, to: f64, length: f64) {
         self.panels.push(Panel { u, s: self.length, direction: self.end });
         self.length += length;
-        let before = tangent(&self.curve, to, false);
-        self.end += argument(before * self.onward.conj());
+        let (a, b) = (tangent(&self.curve, u, true), tangent(&self.curve, to, false));
+        self.end += argument(b * a.conj());
         if to < 1.0 {
             // Through a cusp just at the joint.
-            self.onward = tangent(&self.curve, to, true);
-            self.end += argument(self.onward * before.conj());
+            self.end += argument(tangent(&self.curve, to, true) * b.conj());
         }
     }
 

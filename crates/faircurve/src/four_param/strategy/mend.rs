@@ -31,11 +31,11 @@ impl Rescue {
             };
             attempt += 1;
             self.budget.spend(n / BOOKKEEPING);
-            let before = Badness::of(system);
-            self.try_restart(system, (from, to), attempt, |before, now, bends_less| {
-                now < before || (now == before && now.unsettled == 0 && bends_less)
-            });
-            if Badness::of(system) < before {
+            let helped =
+                self.try_restart(system, (from, to), attempt, |before, now, bends_less| {
+                    now < before || (now == before && now.unsettled == 0 && bends_less)
+                });
+            if helped {
                 attempt = 0;
             }
         }
@@ -77,22 +77,25 @@ impl Rescue {
 
     /// Restarts the stretch between two knots, lets its surroundings settle, and comes back to what
     /// was unless that is worth keeping: by what was wrong before, what is now, and whether the run
-    /// bends less.
+    /// bends less. Whether it is kept, and less is wrong.
     fn try_restart(
         &mut self,
         system: &mut RunSystem<'_>,
         (from, to): (usize, usize),
         attempt: usize,
         is_worth_keeping: fn(Badness, Badness, bool) -> bool,
-    ) {
-        let Some(window) = self.restart(system, from, to, attempt) else { return };
+    ) -> bool {
+        let Some(window) = self.restart(system, from, to, attempt) else { return false };
         let (before, badness, bend) = (system.state(), Badness::of(system), system.total_bend());
         system.adopt(&window, from);
         self.settle_around(system, from, to);
         let bends_less = system.total_bend() < LESS * bend;
-        if !is_worth_keeping(badness, Badness::of(system), bends_less) {
+        let now = Badness::of(system);
+        let is_kept = is_worth_keeping(badness, now, bends_less);
+        if !is_kept {
             self.return_to(system, &before);
         }
+        is_kept && now < badness
     }
 
     /// Gives the stretch between two knots another winding and another start; returns it if it
