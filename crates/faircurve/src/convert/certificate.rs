@@ -8,7 +8,7 @@
 //! max |e(x)|,   e(x) = B(φ(x)) − z(x).
 //! ```
 //!
-//! φ is the polynomial of degree 8 through the feet of the perpendiculars at nine places; that it grows is
+//! φ is the polynomial of degree 8 through the feet of the perpendiculars, or nearly, at nine places; that it grows is
 //! proved, below. On a spiral z is a power series to degree 24 with a bound of its tail. Then e is a polynomial of degree 24,
 //! and with x = cos ϑ, e = Σ cⱼ cos jϑ, its derivatives by ϑ are at most Dₘ = Σ jᵐ|cⱼ|. On a grid of step δ in ϑ, between
 //! neighbours,
@@ -24,6 +24,9 @@
 //! ```
 //!
 //! where max |Q| is bounded by the first inequality on a grid four times finer. The growth of φ is proved by the first inequality too.
+//!
+//! High powers of x that hardly matter are left out of all this, and the sum of their sizes is added. Where D₀ = Σ|cⱼ| is as little
+//! as is asked for, it is the bound.
 //!
 //! What is left of the truth is small: δ = π/64 makes the bound of a deviation of degree 6 0.3 % too large, and the part of e along the
 //! tangent, which a perfect φ would not have, enters squared; where it exceeds a tenth the piece is halved.
@@ -106,33 +109,38 @@ fn lagrange<const N: usize>(nodes: [f64; N]) -> [[f64; N]; N] {
 /// How deep a piece is halved for a sharper bound.
 const MOST_HALVINGS: u32 = 7;
 
+/// How sharp a bound need be; lengths in user units.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sharpness {
+    /// The cubic is too far off to be worth a sharp bound.
+    pub(super) is_hopeless: bool,
+    /// Nor need one be sharp that can't be as small as this,
+    pub(super) limit: f64,
+    /// or that is within this.
+    pub(super) enough: f64,
+}
+
 /// A bound of the distance between the cubic of these arms and its piece of the stretch, in user units;
 /// infinite where the cubic doesn't run along the piece.
-///
-/// `is_hopeless`: the cubic is too far off to be worth a sharp bound. Nor need one be sharp that can't be as small as
-/// `limit`.
 pub(super) fn distance_bound(
     stretch: &Stretch<'_>,
     piece: &Piece,
     fit: &Fit,
-    limit: f64,
-    is_hopeless: bool,
+    sharpness: Sharpness,
 ) -> f64 {
-    let halvings = if is_hopeless { 1 } else { MOST_HALVINGS };
     if !fit.error.is_finite() {
         return f64::INFINITY;
     }
+    let halvings = if sharpness.is_hopeless { 1 } else { MOST_HALVINGS };
+    let enough = sharpness.enough / piece.half;
     let bound = match &piece.series {
         Some(series) => {
             let cubic = LocalCubic::with_arms(piece, fit.arms);
-            let params = std::array::from_fn(|i| {
-                foot(&cubic, piece.places[i], piece.tangents[i], fit.params[i])
-            });
-            bound_on_series(series, &cubic, [0.0, 1.0], params, halvings)
+            bound_on_series(series, &cubic, [0.0, 1.0], fit.params, enough, halvings)
         }
         None => {
             let cubic = LocalCubic::with_arms(piece, fit.arms);
-            bound_over_segments(stretch, piece, &cubic, limit / piece.half)
+            bound_over_segments(stretch, piece, &cubic, sharpness.limit / piece.half)
         }
     };
     bound * piece.half + rounding(stretch, piece)
@@ -150,18 +158,20 @@ pub(super) fn rounding_of(segments: &[Segment]) -> f64 {
     segments.iter().map(Segment::rounding).fold(0.0, f64::max)
 }
 
-/// Half-length units. `ends`: parameters of the cubic at x = ∓1; `params`: at the nodes inside.
+/// Half-length units. `ends`: parameters of the cubic at x = ∓1; `params`: at the nodes inside; `enough`: a bound so small
+/// need not be sharp.
 fn bound_on_series(
     series: &Series,
     cubic: &LocalCubic,
     ends: [f64; 2],
     params: [f64; NODES],
+    enough: f64,
     halvings: u32,
 ) -> f64 {
     let phi = substitution(ends, params);
     let check = if grows(&phi) {
         let e = difference(series, cubic, &phi);
-        grid_bound(series, &e)
+        grid_bound(series, &e, enough)
     } else {
         GridBound { bound: f64::INFINITY, is_sharp: false }
     };
@@ -183,7 +193,7 @@ fn bound_on_series(
             let guess = ends[0] + along * (ends[1] - ends[0]);
             foot(&local, places[i], tangents[i], guess)
         });
-        bound_on_series(&half, &local, ends, params, halvings - 1) / 2.0
+        bound_on_series(&half, &local, ends, params, 2.0 * enough, halvings - 1) / 2.0
     });
     (halves[0].max(halves[1]) + 2.0 * series.tail).min(check.bound + series.tail)
 }
@@ -231,15 +241,16 @@ fn grows(phi: &[f64; 9]) -> bool {
     for (n, c) in slope.iter_mut().enumerate() {
         *c = phi[n + 1] * (n + 1) as f64;
     }
-    let slope = to_chebyshev(slope);
+    let slope = to_chebyshev(&slope);
     let step = std::f64::consts::PI / STEPS as f64 * STRIDE as f64;
     let d2: f64 = slope.iter().enumerate().map(|(j, c)| (j * j) as f64 * c.abs()).sum();
+    let cosines = &*COSINES;
     let mut lowest = f64::INFINITY;
     for i in (0..=HALF).step_by(STRIDE) {
         let (mut even, mut odd) = (0.0, 0.0);
         for j in (0..8).step_by(2) {
-            even += slope[j] * COSINES[j][i];
-            odd += slope[j + 1] * COSINES[j + 1][i];
+            even += slope[j] * cosines[j][i];
+            odd += slope[j + 1] * cosines[j + 1][i];
         }
         lowest = lowest.min(even - odd.abs());
     }
@@ -280,48 +291,51 @@ fn difference(series: &Series, cubic: &LocalCubic, phi: &[f64; 9]) -> Polynomial
 }
 
 /// From powers of x to Chebyshev's polynomials, by Horner's rule: x·T₀ = T₁, x·Tⱼ = (Tⱼ₋₁ + Tⱼ₊₁)/2.
-fn to_chebyshev<const N: usize>(powers: [f64; N]) -> [f64; N] {
-    let mut c = [0.0; N];
-    for power in powers.into_iter().rev() {
-        let old = c;
-        for j in 1..N {
-            let above = if j + 1 < N { old[j + 1] } else { 0.0 };
-            c[j] = 0.5 * (old[j - 1] + above);
+fn to_chebyshev(powers: &[f64]) -> [f64; TERMS] {
+    let mut c = [0.0; TERMS];
+    for (degree, power) in powers.iter().rev().enumerate() {
+        // Twice the coefficient below, as it was: T₀ counts double.
+        let mut below = 2.0 * c[0];
+        c[0] = power + 0.5 * c[1];
+        for j in 1..=degree {
+            let above = if j < degree { c[j + 1] } else { 0.0 };
+            (below, c[j]) = (c[j], 0.5 * (below + above));
         }
-        if N > 1 {
-            c[1] += 0.5 * old[0];
-            c[0] = 0.5 * old[1];
-        }
-        c[0] += power;
     }
     c
 }
 
 struct GridBound {
     bound: f64,
-    /// Whether it is near the truth: the part of e along the tangent is small where |e| is largest.
+    /// Whether it is as sharp as it need be: enough, or near the truth, as the part of e along the tangent is small where |e| is
+    /// largest.
     is_sharp: bool,
 }
 
 /// The bound of |e| by its Chebyshev coefficients.
-fn grid_bound(series: &Series, e: &Polynomial) -> GridBound {
+fn grid_bound(series: &Series, e: &Polynomial, enough: f64) -> GridBound {
     const STEP: f64 = std::f64::consts::PI / STEPS as f64;
-    let (re, im) = (to_chebyshev(e.re), to_chebyshev(e.im));
-    let (mut d2, mut d3) = (0.0, 0.0);
-    for j in 0..TERMS {
-        let size = re[j].hypot(im[j]);
+    let Leading { terms, dropped } = Leading::of(e, enough);
+    let (re, im) = (to_chebyshev(&e.re[..terms]), to_chebyshev(&e.im[..terms]));
+    let (mut d0, mut d2, mut d3) = (0.0, 0.0, 0.0);
+    for j in 0..terms {
+        let size = (re[j] * re[j] + im[j] * im[j]).sqrt();
         let j = j as f64;
+        d0 += size;
         d2 += j * j * size;
         d3 += j * j * j * size;
+    }
+    if d0 + dropped <= enough {
+        return GridBound { bound: d0 + dropped, is_sharp: true };
     }
     // Values at ϑᵢ, i = 0 … 64.
     let mut even = [[0.0; HALF + 1]; 2];
     let mut odd = [[0.0; HALF + 1]; 2];
-    for j in 0..TERMS {
+    for (j, cosines) in COSINES.iter().enumerate().take(terms) {
         let sums = if j % 2 == 0 { &mut even } else { &mut odd };
         for i in 0..=HALF {
-            sums[0][i] += re[j] * COSINES[j][i];
-            sums[1][i] += im[j] * COSINES[j][i];
+            sums[0][i] += re[j] * cosines[i];
+            sums[1][i] += im[j] * cosines[i];
         }
     }
     let mut values = [Complex64::ZERO; STEPS + 1];
@@ -374,7 +388,31 @@ fn grid_bound(series: &Series, e: &Polynomial) -> GridBound {
     if bound.is_nan() {
         return GridBound { bound: f64::INFINITY, is_sharp: false };
     }
-    GridBound { bound, is_sharp }
+    GridBound { bound: bound + dropped, is_sharp }
+}
+
+/// The coefficients of a difference that matter: of a piece that turns little, less than half of them.
+struct Leading {
+    terms: usize,
+    /// What the others add up to at most.
+    dropped: f64,
+}
+
+impl Leading {
+    fn of(e: &Polynomial, enough: f64) -> Self {
+        /// In parts of the largest coefficient, which is some twenty times the difference itself.
+        const OF_LARGEST: f64 = 1e-6;
+        const OF_ENOUGH: f64 = 1e-3;
+        let size = |n: usize| e.re[n].abs() + e.im[n].abs();
+        let most =
+            (0..TERMS).map(size).fold(OF_ENOUGH * enough, |most, s| most.max(OF_LARGEST * s));
+        let (mut terms, mut dropped) = (TERMS, 0.0);
+        while terms > 0 && dropped + size(terms - 1) <= most {
+            terms -= 1;
+            dropped += size(terms);
+        }
+        Leading { terms, dropped }
+    }
 }
 
 /// The bound that a piece of one segment would have if that answered only for the size of its curvature.
@@ -439,7 +477,7 @@ fn bound_over_segments(
                     let along = 0.5 + 0.5 * super::piece::PLACES[i];
                     foot(&local, places[i], tangents[i], start + along * (end - start))
                 });
-                bound_on_series(&series, &local, [start, end], params, MOST_HALVINGS) * unit
+                bound_on_series(&series, &local, [start, end], params, 0.0, MOST_HALVINGS) * unit
                     / piece.half
             }
             _ => bound_by_curvature(&part, cubic, origin, piece.half, limit),

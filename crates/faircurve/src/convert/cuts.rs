@@ -203,23 +203,24 @@ fn balanced(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
     if even.iter().all(|cubic| cubic.error <= fitter.accuracy) { even } else { greedy }
 }
 
-/// Cubics that each reach as far as the accuracy allows (section 9.6.4).
+/// Cubics that each reach as far as the accuracy allows (section 9.6.4); `from` < `to`.
 pub(super) fn greedy(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
     let mut cubics: Vec<Cubic> = Vec::new();
     let mut here = from;
     let mut guess = first_guess(fitter, from, to);
-    while here < to {
+    loop {
         let shortest = shortest(fitter, here, [from, to]);
         let predicted = predict(fitter, here, to, guess);
         let cubic = farthest(fitter, here, to, predicted, shortest);
-        let length = cubic.to - here;
+        cubics.push(cubic);
+        if cubic.to >= to {
+            return cubics;
+        }
         // What the next would reach if the curve went on like this.
         let factor = (AIM * fitter.accuracy / cubic.error).powf(1.0 / fitter.order());
-        guess = length * if factor.is_finite() { factor.clamp(0.5, 2.0) } else { 2.0 };
+        guess = (cubic.to - here) * if factor.is_finite() { factor.clamp(0.5, 2.0) } else { 2.0 };
         here = cubic.to;
-        cubics.push(cubic);
     }
-    cubics
 }
 
 /// What starts at `here` in a range is never cut shorter than this, so that the work is bounded: by 4097

@@ -2,14 +2,14 @@
 
 use kurbo::{CubicBez, Vec2};
 
-use super::certificate::distance_bound;
+use super::certificate::{Sharpness, distance_bound};
 use super::contact;
 use super::metric::angle_error;
 use super::minimax::{Fit as Arms, LocalCubic, first_params, measure, minimax};
 use super::options::{Fit, Metric};
 use super::piece::{Piece, Shift, Stretch};
 use super::single;
-use super::tuning::{HOPELESS, SHORT};
+use super::tuning::{HOPELESS, PLAIN_ARMS, PLAIN_BOUND, SHORT};
 
 /// Fits cubics to pieces of one stretch.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +19,8 @@ pub(super) struct Fitter<'a> {
     pub(super) fit: Fit,
     /// What errors are held against, in the metric's units.
     pub(super) accuracy: f64,
+    /// Each cubic is to be as near as it can be, with a sharp bound; else only those are for which it matters.
+    pub(super) is_thorough: bool,
     /// How cubics start and end.
     pub(super) shifts: [Shift; 2],
 }
@@ -57,9 +59,11 @@ impl Fitter<'_> {
             (Fit::EndCurvature, _) => {
                 let exists = single::with_end_curvatures(&piece);
                 let is_short = to - from < SHORT * self.stretch.length();
-                exists.unwrap_or_else(|| if is_short { minimax(&piece) } else { Arms::none() })
+                exists.unwrap_or_else(|| if is_short { minimax(&piece, 0.0) } else { Arms::none() })
             }
-            (Fit::Optimal, Metric::Distance) => minimax(&piece),
+            (Fit::Optimal, Metric::Distance) => {
+                minimax(&piece, self.enough(PLAIN_ARMS) / piece.half)
+            }
             (Fit::Optimal, metric) => {
                 measured(single::least_angle_error(self.stretch, &piece, metric))
             }
@@ -72,6 +76,11 @@ impl Fitter<'_> {
             }
         };
         Candidate { piece, arms, error }
+    }
+
+    /// This part of the accuracy, where it is enough to be so near.
+    fn enough(&self, part: f64) -> f64 {
+        if self.is_thorough || self.metric != Metric::Distance { 0.0 } else { part * self.accuracy }
     }
 
     /// The power of its length with which the error of a piece grows, on short pieces.
@@ -102,7 +111,8 @@ impl Fitter<'_> {
             arms.error * piece.half > HOPELESS * self.accuracy && self.metric == Metric::Distance;
         // The other metrics set the distance no limit.
         let limit = if self.metric == Metric::Distance { self.accuracy } else { f64::INFINITY };
-        let mut bound = distance_bound(self.stretch, piece, arms, limit, is_hopeless);
+        let sharpness = Sharpness { is_hopeless, limit, enough: self.enough(PLAIN_BOUND) };
+        let mut bound = distance_bound(self.stretch, piece, arms, sharpness);
         if !bound.is_finite() {
             bound = farthest_apart(piece, lengths);
         }

@@ -13,40 +13,49 @@ fn place(g: usize) -> f64 {
     if g == GRID / 2 { 0.0 } else { x }
 }
 
+/// Half of the grid: places x ≥ 0, the middle first.
+const HALF: usize = GRID / 2 + 1;
+
 /// Values on the grid from those at the nodes: a deviation, or what an arm adds to it, is zero twice at both ends, and
 /// (1 − x²)² times the polynomial of degree 6 through the rest. Even and odd parts apart: the weights of the parts at
-/// 0, 0.34, 0.6355, 0.9 for x = cos ϑ ≥ 0.
-static WEIGHTS: LazyLock<[([f64; 4], [f64; 3]); GRID / 2 + 1]> = LazyLock::new(|| {
+/// 0, 0.34, 0.6355, 0.9, for each place x ≥ 0.
+struct Weights {
+    even: [[f64; HALF]; 4],
+    odd: [[f64; HALF]; 3],
+}
+
+static WEIGHTS: LazyLock<Weights> = LazyLock::new(|| {
     let nodes = [0.0, PLACES[4], PLACES[5], PLACES[6]];
     let end = |x: f64| (1.0 - x * x) * (1.0 - x * x);
-    std::array::from_fn(|g| {
-        let x = -place(g);
-        let lagrange = |nodes: &[f64], i: usize| -> f64 {
-            let others = nodes.iter().enumerate().filter(|(j, _)| *j != i);
-            others.map(|(_, m)| (x * x - m * m) / (nodes[i] * nodes[i] - m * m)).product()
-        };
-        let even = std::array::from_fn(|i| lagrange(&nodes, i) * end(x) / end(nodes[i]));
-        let odd = std::array::from_fn(|i| {
-            lagrange(&nodes[1..], i) * x / nodes[i + 1] * end(x) / end(nodes[i + 1])
-        });
-        (even, odd)
-    })
+    let lagrange = |x: f64, nodes: &[f64], i: usize| -> f64 {
+        let others = nodes.iter().enumerate().filter(|(j, _)| *j != i);
+        let product: f64 =
+            others.map(|(_, m)| (x * x - m * m) / (nodes[i] * nodes[i] - m * m)).product();
+        product * end(x) / end(nodes[i])
+    };
+    let places: [f64; HALF] = std::array::from_fn(|g| place(GRID / 2 + g));
+    Weights {
+        even: std::array::from_fn(|i| places.map(|x| lagrange(x, &nodes, i))),
+        odd: std::array::from_fn(|i| {
+            places.map(|x| lagrange(x, &nodes[1..], i) * x / nodes[i + 1])
+        }),
+    }
 });
 
 pub(super) fn on_grid(nodes: &[f64; NODES]) -> [f64; GRID] {
-    let mut even = [nodes[3], 0.0, 0.0, 0.0];
-    let mut odd = [0.0; 3];
-    for i in 0..3 {
-        even[i + 1] = 0.5 * (nodes[4 + i] + nodes[2 - i]);
-        odd[i] = 0.5 * (nodes[4 + i] - nodes[2 - i]);
+    let Weights { even: [w0, w1, w2, w3], odd: [v1, v2, v3] } = &*WEIGHTS;
+    let [a3, a2, a1, middle, b1, b2, b3] = *nodes;
+    let [even1, even2, even3] = [0.5 * (b1 + a1), 0.5 * (b2 + a2), 0.5 * (b3 + a3)];
+    let [odd1, odd2, odd3] = [0.5 * (b1 - a1), 0.5 * (b2 - a2), 0.5 * (b3 - a3)];
+    let (mut even, mut odd) = ([0.0; HALF], [0.0; HALF]);
+    for g in 0..HALF {
+        even[g] = (w0[g] * middle + w1[g] * even1) + (w2[g] * even2 + w3[g] * even3);
+        odd[g] = v1[g] * odd1 + v2[g] * odd2 + v3[g] * odd3;
     }
     let mut values = [0.0; GRID];
-    for (g, (for_even, for_odd)) in WEIGHTS.iter().enumerate() {
-        let e = (for_even[0] * even[0] + for_even[1] * even[1])
-            + (for_even[2] * even[2] + for_even[3] * even[3]);
-        let o = for_odd[0] * odd[0] + for_odd[1] * odd[1] + for_odd[2] * odd[2];
-        values[GRID - 1 - g] = e + o;
-        values[g] = e - o;
+    for g in 0..HALF {
+        values[GRID / 2 + g] = even[g] + odd[g];
+        values[GRID / 2 - g] = even[g] - odd[g];
     }
     values
 }
@@ -82,7 +91,7 @@ pub(super) fn deviation_on_grid(piece: &Piece, nodes: &[f64; NODES]) -> [f64; GR
 
 /// Where the deviation is largest, not counting how it comes down from the ends: those are as they are, and
 /// a search for the longest piece is to see what its length changes.
-pub(super) fn worst_lobe(values: &[f64; GRID], ends: [f64; 2]) -> Option<usize> {
+pub(super) fn worst_lobe(values: &[f64; GRID], ends: [f64; 2]) -> usize {
     let [mut first, mut last] = [0, GRID - 1];
     if ends[0] != 0.0 {
         while first < last && values[first + 1].abs() <= values[first].abs() {
@@ -94,12 +103,18 @@ pub(super) fn worst_lobe(values: &[f64; GRID], ends: [f64; 2]) -> Option<usize> 
             last -= 1;
         }
     }
-    (first..=last).max_by(|a, b| values[*a].abs().total_cmp(&values[*b].abs()))
+    let (mut worst, mut most) = (first, -1.0);
+    for (i, value) in values[first..last + 1].iter().enumerate() {
+        if value.abs() > most {
+            (worst, most) = (first + i, value.abs());
+        }
+    }
+    worst
 }
 
 /// The largest lobe, between points of the grid by a parabola.
 pub(super) fn largest(values: &[f64; GRID], ends: [f64; 2]) -> f64 {
-    let Some(top) = worst_lobe(values, ends) else { return 0.0 };
+    let top = worst_lobe(values, ends);
     let (offset, _) = vertex(values, top);
     parabola(values, top, offset).abs().max(values[top].abs())
 }

@@ -73,12 +73,16 @@ impl Fit {
     }
 }
 
-/// The best of the local minima of the largest deviation that were found.
-pub(super) fn minimax(piece: &Piece) -> Fit {
-    let mut best: Option<Fit> = None;
-    let mut consider = |fit: Fit| {
-        if best.is_none_or(|best| fit.error < best.error) {
-            best = Some(fit);
+/// The best of the local minima of the largest deviation that were found, or the first cubic whose deviation is at most
+/// `enough`.
+pub(super) fn minimax(piece: &Piece, enough: f64) -> Fit {
+    let mut best = Fit::none();
+    let mut consider = |start: Start, rounds: usize| {
+        if best.error > enough {
+            let fit = refine(piece, start, rounds, enough);
+            if fit.error < best.error {
+                best = fit;
+            }
         }
     };
     let mut is_long = true;
@@ -87,20 +91,20 @@ pub(super) fn minimax(piece: &Piece) -> Fit {
         let starts = starts.as_slice();
         for start in starts {
             if start.e6.abs() <= WORTH_TRYING * starts[0].e6.abs() {
-                consider(refine(piece, *start, CONTACT_ROUNDS));
+                consider(*start, CONTACT_ROUNDS);
             }
         }
         is_long = starts.is_empty() || (series.angle(1.0) - series.angle(-1.0)).abs() > LONG;
     }
     if is_long {
         let thirds = Start { arms: [2.0 / 3.0; 2], e6: f64::INFINITY };
-        consider(refine(piece, thirds, CRUDE_ROUNDS));
+        consider(thirds, CRUDE_ROUNDS);
     }
-    best.unwrap_or(Fit::none())
+    best
 }
 
-/// Exchange rounds from one start; the best arms seen.
-pub(super) fn refine(piece: &Piece, start: Start, rounds: usize) -> Fit {
+/// Exchange rounds from one start, as long as the deviation is more than `enough`; the best arms seen.
+pub(super) fn refine(piece: &Piece, start: Start, rounds: usize, enough: f64) -> Fit {
     let mut arms = start.arms;
     let mut params = first_params(arms);
     let mut best: Option<Fit> = None;
@@ -112,7 +116,7 @@ pub(super) fn refine(piece: &Piece, start: Start, rounds: usize) -> Fit {
         } else if round > 1 || !fit.error.is_finite() {
             break;
         }
-        if round == rounds {
+        if round == rounds || fit.error <= enough {
             break;
         }
         let Some((step, least)) = exchange(piece, &fit) else { break };
@@ -237,7 +241,7 @@ fn exchange(piece: &Piece, fit: &Fit) -> Option<([f64; 2], f64)> {
         for g in 0..GRID {
             left[g] = n[g] + by_a[g] * step[0] + by_b[g] * step[1];
         }
-        let Some(worst) = worst_lobe(&left, piece.offsets) else { break };
+        let worst = worst_lobe(&left, piece.offsets);
         if !(left[worst].abs() > solved.level.abs() * 1.000_001) {
             break;
         }
