@@ -42,6 +42,11 @@ type Place = () => string;
 function writeRow(rows: Float64Array, at: number, knot: Knot, place: Place): void {
   if (typeof knot !== "object" || knot === null) throw wrongType(`${place()}a knot`, "an object", knot);
   for (const key in knot) {
+    // Most knots have nothing else.
+    if (key === "x" || key === "y") {
+      if (knot[key] !== undefined) rows[at + (key === "x" ? 0 : 1)] = number(knot[key], place, key);
+      continue;
+    }
     const column = KEYS.get(key);
     if (column === undefined) {
       throw new FaircurveError(`${place()}there is no key \`${key}\` here`, wasm.suggest(key, [...KEYS.keys()]));
@@ -64,8 +69,8 @@ function writeRow(rows: Float64Array, at: number, knot: Knot, place: Place): voi
       rows[at + column] = number(value, place, key);
     }
   }
-  for (const key of ["x", "y"] as const) {
-    if (knot[key] === undefined) throw new FaircurveError(`${place()}the key \`${key}\` is missing`);
+  if (knot.x === undefined || knot.y === undefined) {
+    throw new FaircurveError(`${place()}the key \`${knot.x === undefined ? "x" : "y"}\` is missing`);
   }
 }
 

@@ -6,6 +6,7 @@
 //! start and direction become canonical, so that the result can't depend on them.
 //! [`Plan::assemble`] puts the solved runs back together in the input's numbering.
 
+use std::cmp::Ordering;
 use std::fmt;
 
 use kurbo::{Point, Vec2};
@@ -81,11 +82,13 @@ impl Run {
 
     /// Fills in the turning angles.
     fn measured(mut self) -> Self {
-        let n = self.knots.len();
-        for i in 0..n {
-            let inner = self.closed || (i > 0 && i + 1 < n);
-            let turn = || turning(self.chord((i + n - 1) % n), self.chord(i));
-            self.knots[i].turn = if inner { turn() } else { 0.0 };
+        let segments = self.segment_count();
+        let mut before = self.closed.then(|| self.chord(segments - 1));
+        for i in 0..self.knots.len() {
+            let after = (i < segments).then(|| self.chord(i));
+            let turn = before.zip(after).map(|(before, after)| turning(before, after));
+            self.knots[i].turn = turn.unwrap_or(0.0);
+            before = after;
         }
         self
     }
@@ -509,30 +512,34 @@ impl Plan {
     fn place_segments(&self, shapes: &[Option<Segment>]) -> Vec<Segment> {
         let count = self.points.len();
         let total = if self.closed { count } else { count - 1 };
-        let ends = |i: usize| (self.points[i], self.points[(i + 1) % count]);
-        let mut placed: Vec<Option<Segment>> = vec![None; total];
-        for (segment, shape) in shapes.iter().enumerate() {
-            let i = self.nodes[segment].last;
-            let (start, end) = ends(i);
-            placed[i] = Some(match shape {
-                Some(shape) if !shape.is_line() => shape.moved_to(start, end),
+        let ends = |i: usize| (self.points[i], self.points[if i + 1 == count { 0 } else { i + 1 }]);
+        let placed = |segment: usize| {
+            let (start, end) = ends(self.nodes[segment].last);
+            match &shapes[segment] {
+                Some(shape) if !shape.is_line() => shape.moved_to(start, end, self.unit),
                 _ => Segment::line(start, end),
-            });
-        }
+            }
+        };
         // Between coincident knots: the direction of what arrives, or else of what leaves.
         let arriving = |s: &Segment| s.direction(s.length());
-        let around = match self.closed {
-            true => placed.iter().flatten().next_back().map(arriving),
-            false => placed.iter().flatten().next().map(|s| s.direction(0.0)),
+        let around = || match (shapes.len(), self.closed) {
+            (0, _) => 0.0,
+            (n, true) => arriving(&placed(n - 1)),
+            (_, false) => placed(0).direction(0.0),
         };
         let mut whole: Vec<Segment> = Vec::with_capacity(total);
-        for (i, segment) in placed.into_iter().enumerate() {
-            whole.push(segment.unwrap_or_else(|| {
-                let (start, end) = ends(i);
-                let way = whole.last().map(arriving).or(around).unwrap_or(0.0);
-                Segment::line_with_direction(start, end, way)
-            }));
+        let fill = |whole: &mut Vec<Segment>, to: usize| {
+            while whole.len() < to {
+                let (start, end) = ends(whole.len());
+                let way = whole.last().map_or_else(around, arriving);
+                whole.push(Segment::line_with_direction(start, end, way));
+            }
+        };
+        for segment in 0..shapes.len() {
+            fill(&mut whole, self.nodes[segment].last);
+            whole.push(placed(segment));
         }
+        fill(&mut whole, total);
         whole
     }
 
@@ -835,35 +842,47 @@ fn is_straight(run: &Run) -> bool {
 fn canonical(run: Run, first_node: usize, nodes: usize) -> (Run, usize, bool) {
     let n = run.knots.len();
     let (size, chords) = coarse_chords(&run);
-    let forward = marks(&run, size, |i| chords[i]);
-    let backwards = Run {
-        knots: run.knots.iter().rev().map(|knot| reversed_knot(*knot)).collect(),
-        closed: run.closed,
-        unit: run.unit,
+    // Knot i of the way back is knot n − 1 − i.
+    let backward_knot = |i: usize| reversed_knot(run.knots[n - 1 - i]);
+    let backward_chord = |i: usize| match n - 1 - i {
+        0 => -run.chord(if run.closed { n - 1 } else { 0 }),
+        knot => -run.chord(knot - 1),
     };
-    let backward = marks(&backwards, size, |i| chords[(2 * n - 2 - i) % n]);
-    let start_of = |run: &Run, marks: &[Mark]| match run.closed {
-        false => 0,
-        true => {
-            // A symmetric run has several such starts; any will do, so long as it is the same one.
-            let (start, period) = least_rotation(marks);
-            let place = |i: usize| run.knots[i % n].point;
-            (0..n / period).map(|i| (start + i * period) % n).fold(start, |best, i| {
-                if (place(i).x, place(i).y) < (place(best).x, place(best).y) { i } else { best }
-            })
-        }
+    let last = run.segment_count() - 1;
+    let forward: Vec<Mark> =
+        (0..n).map(|i| mark(&run.knots[i], size, chords[i], || run.chord(i.min(last)))).collect();
+    let backward: Vec<Mark> = (0..n)
+        .map(|i| {
+            let chord = chords[if i + 1 < n { n - 2 - i } else { n - 1 }];
+            mark(&backward_knot(i), size, chord, || backward_chord(i))
+        })
+        .collect();
+    let forward_place = |i: usize| <(f64, f64)>::from(run.knots[i % n].point);
+    let backward_place = |i: usize| forward_place(2 * n - 1 - i % n);
+    let a = if run.closed { least_start(&forward, forward_place) } else { 0 };
+    let b = if run.closed { least_start(&backward, backward_place) } else { 0 };
+    let order = from(&forward, a).cmp(from(&backward, b)).then_with(|| {
+        let ways = (0..n).map(|i| forward_place(a + i).partial_cmp(&backward_place(b + i)));
+        ways.flatten().find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
+    });
+    let keep = order.is_le();
+    let knots = match keep {
+        true => from(&run.knots, a).copied().collect(),
+        false => (0..n).map(|i| backward_knot((b + i) % n)).collect(),
     };
-    let (a, b) = (start_of(&run, &forward), start_of(&backwards, &backward));
-    let order = from(&forward, a).cmp(from(&backward, b));
-    let points = |run: &Run, start: usize| -> Vec<(f64, f64)> {
-        from(&run.knots, start).map(|knot| knot.point.into()).collect()
-    };
-    let keep = order.is_lt() || order.is_eq() && points(&run, a) <= points(&backwards, b);
-    let (chosen, start) = if keep { (&run, a) } else { (&backwards, b) };
-    let knots = from(&chosen.knots, start).copied().collect();
     // Knot b of the reversed list is knot n − 1 − b; the walk ends at the one after it.
     let first = if keep { a } else { (n - b) % n };
     (Run { knots, closed: run.closed, unit: run.unit }, (first_node + first) % nodes, !keep)
+}
+
+/// Where the least rotation of a closed run's marks starts. A symmetric run has several such starts; any will do, so
+/// long as it is the same one: that of the least place.
+fn least_start(marks: &[Mark], place: impl Fn(usize) -> (f64, f64)) -> usize {
+    let n = marks.len();
+    let (start, period) = least_rotation(marks);
+    (0..n / period)
+        .map(|i| (start + i * period) % n)
+        .fold(start, |best, i| if place(i) < place(best) { i } else { best })
 }
 
 /// What a knot looks like to someone who travels the run: its join, its turning angle without sign,
@@ -873,7 +892,7 @@ type Mark = (Join, i64, i64, Option<i64>, Option<i64>);
 
 /// Alike to a billionth of a radian or of the run's size.
 fn coarse(number: f64) -> i64 {
-    (number.abs() * 1e9).round() as i64
+    (number.abs() * 1e9 + 0.5) as i64
 }
 
 /// The longest chord, and over it that which follows each knot; 0 after the last of an open run.
@@ -884,15 +903,12 @@ fn coarse_chords(run: &Run) -> (f64, Vec<i64>) {
     (size, lengths.into_iter().map(|length| coarse(length / size)).chain(end).collect())
 }
 
-fn marks(run: &Run, size: f64, chord: impl Fn(usize) -> i64) -> Vec<Mark> {
-    let last = run.segment_count() - 1;
-    let mark = |(i, knot): (usize, &RunKnot)| {
-        let off = |tangent| wrap_angle(tangent - direction(run.chord(i.min(last))));
-        let tangent = knot.tangent.map(|tangent| coarse(off(tangent)));
-        let curvature = knot.curvature.map(|curvature| coarse(curvature * size));
-        (knot.join, coarse(knot.turn), chord(i), tangent, curvature)
-    };
-    run.knots.iter().enumerate().map(mark).collect()
+/// The mark of a knot, with that of the chord that follows; where there is a tangent, that chord itself is asked for.
+fn mark(knot: &RunKnot, size: f64, length: i64, chord: impl Fn() -> Vec2) -> Mark {
+    let off = |tangent| wrap_angle(tangent - direction(chord()));
+    let tangent = knot.tangent.map(|tangent| coarse(off(tangent)));
+    let curvature = knot.curvature.map(|curvature| coarse(curvature * size));
+    (knot.join, coarse(knot.turn), length, tangent, curvature)
 }
 
 /// The list from `start` on, and around.
@@ -907,12 +923,12 @@ fn least_rotation<T: Ord>(list: &[T]) -> (usize, usize) {
     let (mut i, mut j, mut same) = (0, 1, 0);
     while i < n && j < n && same < n {
         match list[(i + same) % n].cmp(&list[(j + same) % n]) {
-            std::cmp::Ordering::Equal => {
+            Ordering::Equal => {
                 same += 1;
                 continue;
             }
-            std::cmp::Ordering::Greater => i += same + 1,
-            std::cmp::Ordering::Less => j += same + 1,
+            Ordering::Greater => i += same + 1,
+            Ordering::Less => j += same + 1,
         }
         if i == j {
             j += 1;

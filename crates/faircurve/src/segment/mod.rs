@@ -522,14 +522,16 @@ impl Segment {
     }
 
     /// The same segment scaled and turned onto another chord, which must not be zero: what undoing
-    /// a scale by a power of two does, or giving a merged knot its own place.
-    pub(crate) fn moved_to(&self, start: Point, end: Point) -> Segment {
+    /// a scale by a power of two does (by `unit`, in most cases), or giving a merged knot its own place.
+    pub(crate) fn moved_to(&self, start: Point, end: Point, unit: f64) -> Segment {
         let (from, to) = (self.end - self.start, end - start);
-        // Exactly a power of two and 0 where the chord has only been scaled.
-        let (scale, turn) = (to.hypot() / from.hypot(), turning(from, to));
-        // Multiplication by the ratio of the chords, as complex numbers.
-        let ratio = Vec2::new(from.dot(to), from.cross(to)) / from.hypot2();
+        // The same as is computed otherwise, sooner.
+        let is_scaled = to == from * unit;
+        let (scale, turn) =
+            if is_scaled { (unit, 0.0) } else { (to.hypot() / from.hypot(), turning(from, to)) };
         let moved = |p: Point| {
+            // Multiplication by the ratio of the chords, as complex numbers.
+            let ratio = Vec2::new(from.dot(to), from.cross(to)) / from.hypot2();
             let v = p - self.start;
             start + Vec2::new(v.x * ratio.x - v.y * ratio.y, v.x * ratio.y + v.y * ratio.x)
         };
