@@ -116,15 +116,26 @@ async function starts() {
   if (!browserPath) return;
   await withPage(process.cwd(), async (page, address) => {
     const source = JSON.stringify(`${address}/${installed}/index.js`);
+    writeFileSync("empty.js", "export {};");
+    writeFileSync("named.html", `<!doctype html>
+      <link rel="modulepreload" href="/${installed}/index.js">
+      <link rel="preload" href="/${installed}/wasm/solver_bg.wasm" as="fetch" crossorigin>`);
+    const nothing = `const start = performance.now(); await import("${address}/empty.js");`;
+    const first = FIRST.replace("SOURCE", source);
     // A page that is still loading shares the processor with the browser's own start.
-    for (const [rest, when] of [[300, "page at rest"], [0, "page loading"]]) {
+    for (const [path, rest, script, when] of [
+      ["named.html", 300, first, "page at rest that names both files at its top, as the README says"],
+      ["empty", 300, first, "page at rest"],
+      ["empty", 0, first, "page loading"],
+      ["empty", 300, nothing, "page at rest, import of a module without a word in it"],
+    ]) {
       const inBrowser = [];
       for (let i = 0; i < 15; i++) {
         const context = await page.context().browser().newContext();
         const fresh = await context.newPage();
-        await fresh.goto(`${address}/empty`);
+        await fresh.goto(`${address}/${path}`);
         await fresh.waitForTimeout(rest);
-        inBrowser.push(await fresh.evaluate(`(async () => { ${FIRST.replace("SOURCE", source)} return performance.now() - start; })()`));
+        inBrowser.push(await fresh.evaluate(`(async () => { ${script} return performance.now() - start; })()`));
         await context.close();
       }
       console.log(`Chromium  ${median(inBrowser).toFixed(1)}, ${when}`);

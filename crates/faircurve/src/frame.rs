@@ -94,7 +94,14 @@ pub fn wrap_angle(angle: f64) -> f64 {
         return angle;
     }
     let wrapped = angle - TAU * (angle / TAU).round();
-    if wrapped <= -PI { wrapped + TAU } else { wrapped }
+    // Beside odd multiples of π, rounding decides to which side of them.
+    if wrapped <= -PI {
+        wrapped + TAU
+    } else if wrapped > PI {
+        wrapped - TAU
+    } else {
+        wrapped
+    }
 }
 
 /// The direction of a vector in radians, in (−π, π].
@@ -164,5 +171,16 @@ mod tests {
         assert_eq!(wrap_angle(-PI), PI);
         assert!((wrap_angle(7.0) - (7.0 - TAU)).abs() < 1e-15);
         assert!(wrap_angle(f64::INFINITY).is_nan());
+        // Found by fuzzing: 8 last places beyond π.
+        for odd in (1..20_001).step_by(2) {
+            let mut angle = f64::from(odd) * PI * (1.0 - 1e-15);
+            for _ in 0..20 {
+                for angle in [angle, -angle] {
+                    let wrapped = wrap_angle(angle);
+                    assert!(wrapped > -PI && wrapped <= PI, "{angle}: {wrapped}");
+                }
+                angle = angle.next_up();
+            }
+        }
     }
 }

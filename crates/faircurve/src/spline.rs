@@ -39,6 +39,12 @@ pub trait Spline: fmt::Debug + Send + Sync {
     /// Solves one run, searching as far as `effort` allows. Never fails: where something can't be
     /// met the curve is relaxed and the result says so.
     fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution;
+
+    /// Solves a contour's only run, which has all of the effort: plainly if that does. Where
+    /// [`solve_run`](Self::solve_run) starts plainly itself, it alone is as good.
+    fn solve_lone_run(&self, run: &Run, effort: Effort) -> RunSolution {
+        self.solve_plainly(run).unwrap_or_else(|| self.solve_run(run, effort))
+    }
 }
 
 /// How far to search where the straight way doesn't solve a contour as asked, before something is
@@ -308,7 +314,7 @@ pub fn solve_with(
     effort: Effort,
 ) -> Result<Solution, InputError> {
     let plan = Plan::new(contour, spline)?;
-    Ok(solve_planned(&plan, spline, effort, |_, run| spline.solve_plainly(run)))
+    Ok(solve_planned(&plan, spline, effort, |_, _| None))
 }
 
 /// Finds a curve near one that is known, for a contour that is being changed by hand: it stays on
@@ -330,19 +336,23 @@ pub fn solve_near(
     let plan = Plan::new(contour, spline)?;
     let known = plan.by_run(near);
     Ok(solve_planned(&plan, spline, effort, |index, run| {
-        let followed = known.get(index).and_then(|near| spline.follow(run, near));
-        followed.or_else(|| spline.solve_plainly(run))
+        known.get(index).and_then(|near| spline.follow(run, near))
     }))
 }
 
-/// Solves every run the quick way, then those for which that isn't enough with their share of the
-/// effort.
+/// Follows the curve known of every run; those for which that isn't enough are solved plainly, or else with
+/// their share of the effort.
 fn solve_planned(
     plan: &Plan,
     spline: &dyn Spline,
     effort: Effort,
-    quickly: impl Fn(usize, &Run) -> Option<RunSolution>,
+    follow: impl Fn(usize, &Run) -> Option<RunSolution>,
 ) -> Solution {
+    if let [run] = plan.runs() {
+        let solved = follow(0, run).unwrap_or_else(|| spline.solve_lone_run(run, effort));
+        return plan.assemble(vec![solved]);
+    }
+    let quickly = |index: usize, run| follow(index, run).or_else(|| spline.solve_plainly(run));
     let plain: Vec<_> =
         plan.runs().iter().enumerate().map(|(i, run)| (run, quickly(i, run))).collect();
     let hard = plain.iter().filter(|(_, solved)| solved.is_none());

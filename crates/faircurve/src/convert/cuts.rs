@@ -415,6 +415,9 @@ pub(super) fn predict(fitter: &Fitter<'_>, from: f64, to: f64, guess: f64) -> f6
     for _ in 0..4 {
         let Some(error) = fitter.law(from, from + length) else { return length };
         let ratio = AIM * fitter.accuracy / error;
+        if length == to - from && ratio >= 1.0 {
+            return length;
+        }
         let factor = ratio.powf(1.0 / 6.5);
         if !factor.is_finite() {
             return length;

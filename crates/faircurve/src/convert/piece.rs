@@ -232,7 +232,13 @@ pub(super) struct Joint {
 }
 
 fn unit(direction: f64) -> Vec2 {
-    Vec2::from_angle(direction)
+    /// As far as [`cis`] is good to its last bits.
+    const LARGEST: f64 = 1e6;
+    if direction.abs() > LARGEST {
+        return Vec2::from_angle(direction);
+    }
+    let Complex64 { re, im } = cis(direction);
+    Vec2::new(re, im)
 }
 
 /// How the end of a cubic stands to the curve beside it.

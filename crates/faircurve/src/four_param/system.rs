@@ -100,6 +100,8 @@ pub(super) struct RunSystem<'a> {
     /// The family's parameters of each segment: the state.
     pub parameters: Vec<[f64; 4]>,
     responses: Vec<Response>,
+    /// The parameters that the responses are for.
+    answered: Vec<[f64; 4]>,
     /// What doesn't hold at each knot.
     mismatches: Vec<Mismatch>,
     closed: bool,
@@ -128,6 +130,7 @@ impl<'a> RunSystem<'a> {
             chords,
             parameters: vec![[0.0; 4]; segments],
             responses: Vec::with_capacity(segments),
+            answered: Vec::with_capacity(segments),
             mismatches: vec![Mismatch::default(); n],
             closed: run.closed,
             rough: false,
@@ -151,6 +154,7 @@ impl<'a> RunSystem<'a> {
         let n = self.knots.len();
         let mut rounded = RunSystem { rough: true, ..self.clone() };
         rounded.parameters.fill([0.0; 4]);
+        rounded.forget();
         rounded.chords.iter_mut().for_each(|chord| *chord = floating(*chord / longest));
         for (i, knot) in rounded.knots.iter_mut().enumerate() {
             let (left, right) = neighbours(i, n, self.closed);
@@ -259,6 +263,7 @@ impl<'a> RunSystem<'a> {
             chords: (0..count).map(|i| self.chords[knot(i)]).collect(),
             parameters: (0..count).map(|i| self.parameters[knot(i)]).collect(),
             responses: Vec::with_capacity(count),
+            answered: Vec::with_capacity(count),
             mismatches: vec![Mismatch::default(); count + 1],
             knots,
             closed: false,
@@ -273,6 +278,7 @@ impl<'a> RunSystem<'a> {
         for i in 0..window.parameters.len() {
             self.parameters[(from + i) % n] = window.parameters[i];
             self.responses[(from + i) % n] = window.responses[i];
+            self.answered[(from + i) % n] = window.answered[i];
         }
         for (i, knot) in window.knots.iter().enumerate() {
             self.knots[(from + i) % n].turn = knot.turn;
@@ -367,6 +373,7 @@ impl<'a> RunSystem<'a> {
         fused.knots.retain(|_| of_knots.next() == Some(&false));
         let mut of_segments = is_short.iter();
         fused.chords.retain(|_| of_segments.next() == Some(&false));
+        fused.forget();
         fused.parameters.truncate(fused.chords.len());
         fused.parameters.fill([0.0; 4]);
         fused.mismatches.truncate(fused.knots.len());
@@ -449,27 +456,44 @@ impl<'a> RunSystem<'a> {
         self.responses.iter().map(|response| response.ends.straightness).fold(1.0, f64::min)
     }
 
-    /// Computes responses and mismatches of the present state.
+    /// Computes responses and mismatches of the present state. Where a single knot has moved, segments far from it don't
+    /// change, and aren't asked again.
     pub(super) fn evaluate(&mut self) {
-        self.responses.clear();
         for (i, parameters) in self.parameters.iter().enumerate() {
+            if self.answered.get(i) == Some(parameters) {
+                continue;
+            }
             let response = match i.checked_sub(1) {
                 // As straight segments are, from which a solution starts.
                 Some(before) if self.parameters[before] == *parameters => self.responses[before],
                 _ if self.rough => self.family.respond_roughly(*parameters),
                 _ => self.family.respond(*parameters),
             };
-            self.responses.push(response);
+            if i < self.responses.len() {
+                (self.responses[i], self.answered[i]) = (response, *parameters);
+            } else {
+                self.responses.push(response);
+                self.answered.push(*parameters);
+            }
         }
         self.compare();
     }
 
     /// The same after a step that leaves the responses as they are.
     fn evaluate_ends(&mut self) {
+        /// Equal to no parameters.
+        const NOT_IN_FULL: [f64; 4] = [f64::NAN; 4];
         for (response, parameters) in self.responses.iter_mut().zip(&self.parameters) {
             response.ends = self.family.ends(*parameters);
         }
+        self.answered.fill(NOT_IN_FULL);
         self.compare();
+    }
+
+    /// Forgets all responses: segments are others, or are evaluated otherwise.
+    fn forget(&mut self) {
+        self.responses.clear();
+        self.answered.clear();
     }
 
     /// Compares what the segments say of each knot.

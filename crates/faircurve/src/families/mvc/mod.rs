@@ -82,7 +82,7 @@ impl Spline for Mvc {
         if own.relaxed.is_empty() && longest <= LOOP {
             return own;
         }
-        let spirals = Spiro.solve_plainly(run).unwrap_or_else(|| Spiro.solve_run(run, effort));
+        let spirals = Spiro.solve_lone_run(run, effort);
         let reason = if spirals.relaxed.len() < own.relaxed.len() {
             "no curve of minimum variation was found that joins as asked; this segment is the longest \
              of those found. Add a knot where the curve turns most"
@@ -101,6 +101,10 @@ impl Spline for Mvc {
         let instead = Relaxation { place, asked: INFO.name, got: "spiro", reason };
         let relaxed = std::iter::once(instead).chain(spirals.relaxed).collect();
         RunSolution { relaxed, iterations: own.iterations + spirals.iterations, ..spirals }
+    }
+
+    fn solve_lone_run(&self, run: &Run, effort: Effort) -> RunSolution {
+        self.solve_run(run, effort)
     }
 }
 

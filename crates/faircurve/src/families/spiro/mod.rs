@@ -69,6 +69,10 @@ impl Spline for Spiro {
     fn solve_run(&self, run: &Run, effort: Effort) -> RunSolution {
         ConstraintSpline::new(&PolynomialSpirals).solve_run(run, effort)
     }
+
+    fn solve_lone_run(&self, run: &Run, effort: Effort) -> RunSolution {
+        self.solve_run(run, effort)
+    }
 }
 
 /// The family of segments whose curvature is a cubic in arc length; its parameters are k₀ … k₃ of
