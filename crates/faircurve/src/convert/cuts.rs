@@ -203,24 +203,25 @@ fn balanced(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
     if even.iter().all(|cubic| cubic.error <= fitter.accuracy) { even } else { greedy }
 }
 
-/// Cubics that each reach as far as the accuracy allows (section 9.6.4); `from` < `to`.
+/// Cubics that each reach as far as the accuracy allows (section 9.6.4).
 pub(super) fn greedy(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
     let mut cubics: Vec<Cubic> = Vec::new();
     let mut here = from;
     let mut guess = first_guess(fitter, from, to);
-    loop {
+    while here < to {
         let shortest = shortest(fitter, here, [from, to]);
         let predicted = predict(fitter, here, to, guess);
         let cubic = farthest(fitter, here, to, predicted, shortest);
         cubics.push(cubic);
-        if cubic.to >= to {
-            return cubics;
+        if cubic.to < to {
+            // What the next would reach if the curve went on like this.
+            let factor = (AIM * fitter.accuracy / cubic.error).powf(1.0 / fitter.order());
+            let factor = if factor.is_finite() { factor.clamp(0.5, 2.0) } else { 2.0 };
+            guess = (cubic.to - here) * factor;
         }
-        // What the next would reach if the curve went on like this.
-        let factor = (AIM * fitter.accuracy / cubic.error).powf(1.0 / fitter.order());
-        guess = (cubic.to - here) * if factor.is_finite() { factor.clamp(0.5, 2.0) } else { 2.0 };
         here = cubic.to;
     }
+    cubics
 }
 
 /// What starts at `here` in a range is never cut shorter than this, so that the work is bounded: by 4097
@@ -415,6 +416,7 @@ pub(super) fn predict(fitter: &Fitter<'_>, from: f64, to: f64, guess: f64) -> f6
     for _ in 0..4 {
         let Some(error) = fitter.law(from, from + length) else { return length };
         let ratio = AIM * fitter.accuracy / error;
+        // All of what is left will do.
         if length == to - from && ratio >= 1.0 {
             return length;
         }

@@ -32,8 +32,8 @@ pub(super) const SHORT: f64 = 1e-3;
 /// Cubics that are so many times farther off than allowed, which only the shortest pieces may be, get a cheap bound.
 pub(super) const HOPELESS: f64 = 8.0;
 
-/// Arms with which a cubic is within this part of the accuracy are left as they are: three times as near as asked is no
-/// better than ten times, and most segments of a drawing with many knots are one cubic with room to spare.
+/// Arms with which a cubic is within this part of the accuracy are left as they are: nobody sees what is ten times as near
+/// as asked, and most segments of a drawing with many knots are one cubic with room to spare.
 pub(super) const PLAIN_ARMS: f64 = 0.1;
 
 /// Likewise a bound within this part of the accuracy is left as a sum of absolute values, which is some 1.4 times the truth.
