@@ -9,7 +9,7 @@ use super::minimax::{Fit as Arms, LocalCubic, first_params, measure, minimax};
 use super::options::{Fit, Metric};
 use super::piece::{Piece, Shift, Stretch};
 use super::single;
-use super::tuning::{HOPELESS, PLAIN_ARMS, PLAIN_BOUND, SHORT};
+use super::tuning::{HOPELESS, PLAIN_ARMS, PLAIN_BOUND, SHORT, UNSEEN};
 
 /// Fits cubics to pieces of one stretch.
 #[derive(Clone, Copy, Debug)]
@@ -62,7 +62,7 @@ impl Fitter<'_> {
                 exists.unwrap_or_else(|| if is_short { minimax(&piece, 0.0) } else { Arms::none() })
             }
             (Fit::Optimal, Metric::Distance) => {
-                minimax(&piece, self.enough(PLAIN_ARMS) / piece.half)
+                minimax(&piece, (self.enough(PLAIN_ARMS) / piece.half).min(UNSEEN))
             }
             (Fit::Optimal, metric) => {
                 measured(single::least_angle_error(self.stretch, &piece, metric))

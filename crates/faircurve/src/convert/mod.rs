@@ -35,8 +35,8 @@ pub struct Conversion {
     /// The Béziers.
     pub path: BezPath,
     /// An upper bound of the distance of every point of the path from the curve and of every point of the
-    /// curve from the path, in the drawing's units. Where it is more than a quarter of the accuracy (or all cubics have the same
-    /// error), it is within a percent of the truth on spirals.
+    /// curve from the path, in the drawing's units. On spirals it is within a percent of the truth where it is more than a
+    /// quarter of the accuracy, and always with [`Cuts::EqualErrors`] and [`Cuts::Balanced`].
     pub bound: f64,
     /// The largest error of a cubic in the metric's units; for [`Metric::Distance`] that is `bound`.
     pub error: f64,

@@ -36,6 +36,10 @@ pub(super) const HOPELESS: f64 = 8.0;
 /// as asked, and most segments of a drawing with many knots are one cubic with room to spare.
 pub(super) const PLAIN_ARMS: f64 = 0.1;
 
+/// But only where it is also within this part of half the piece: however coarse an accuracy is, what is drawn is to look the
+/// same at every scale.
+pub(super) const UNSEEN: f64 = 5e-4;
+
 /// Likewise a bound within this part of the accuracy is left as a sum of absolute values, which is some 1.4 times the truth.
 pub(super) const PLAIN_BOUND: f64 = 0.25;
 
