@@ -48,10 +48,12 @@
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
+use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 use num_complex::Complex64;
 
+use crate::numeric::trig::{cis, unit_vector};
 use crate::segment::{Segment, Shape};
 
 use super::contact::dot;
@@ -61,6 +63,7 @@ use super::series::{Polynomial, Series, TERMS};
 
 /// Steps of the grid: π/64 is where the parabola's remainder falls below the tangential part.
 const STEPS: usize = 64;
+const STEP: f64 = PI / STEPS as f64;
 
 /// Half of them: the grid is symmetric in x.
 const HALF: usize = STEPS / 2;
@@ -70,7 +73,7 @@ static COSINES: LazyLock<[[f64; HALF + 1]; TERMS]> = LazyLock::new(|| {
     let mut table = [[0.0; HALF + 1]; TERMS];
     for (j, row) in table.iter_mut().enumerate() {
         for (i, entry) in row.iter_mut().enumerate() {
-            *entry = (std::f64::consts::PI * (i * j) as f64 / STEPS as f64).cos();
+            *entry = cis(STEP * (i * j) as f64).re;
         }
     }
     table
@@ -182,7 +185,7 @@ fn bound_on_series(
     let halves = [(-0.5, [ends[0], middle]), (0.5, [middle, ends[1]])].map(|(x, ends)| {
         let half = half_of(series, x);
         // The cubic in the frame of the half: its middle the origin, its half length the unit.
-        let turn = Complex64::from_polar(2.0, -series.angle(x));
+        let turn = cis(-series.angle(x)) * 2.0;
         let origin = series.z.pair(x)[0];
         let mut local = cubic.0;
         local[0] -= origin;
@@ -242,7 +245,7 @@ fn grows(phi: &[f64; 9]) -> bool {
         *c = phi[n + 1] * (n + 1) as f64;
     }
     let slope = to_chebyshev(&slope);
-    let step = std::f64::consts::PI / STEPS as f64 * STRIDE as f64;
+    let step = STEP * STRIDE as f64;
     let d2: f64 = slope.iter().enumerate().map(|(j, c)| (j * j) as f64 * c.abs()).sum();
     let cosines = &*COSINES;
     let mut lowest = f64::INFINITY;
@@ -314,7 +317,6 @@ struct GridBound {
 
 /// The bound of |e| by its Chebyshev coefficients.
 fn grid_bound(series: &Series, e: &Polynomial, enough: f64) -> GridBound {
-    const STEP: f64 = std::f64::consts::PI / STEPS as f64;
     let Leading { terms, dropped } = Leading::of(e, enough);
     let (re, im) = (to_chebyshev(&e.re[..terms]), to_chebyshev(&e.im[..terms]));
     let (mut d0, mut d2, mut d3) = (0.0, 0.0, 0.0);
@@ -380,8 +382,8 @@ fn grid_bound(series: &Series, e: &Polynomial, enough: f64) -> GridBound {
         let simple = squares[i].max(squares[i + 1]).sqrt() + linear;
         bound = bound.max(refined.min(simple));
     }
-    let x = (top as f64 * STEP).cos();
-    let tangent = Complex64::from_polar(1.0, series.angle(x));
+    let x = cis(top as f64 * STEP).re;
+    let tangent = cis(series.angle(x));
     let along = dot(values[top], tangent);
     // A tenth makes the bound half a percent too large. `!` so that NaN isn't sharp.
     let is_sharp = along.abs() <= 0.1 * largest || largest < 1e-15;
@@ -432,6 +434,7 @@ pub(super) fn bound_by_curvature_of(stretch: &Stretch<'_>, piece: &Piece, fit: &
 
 /// A piece over several segments, or on one that isn't a spiral: each part by itself, the feet at the
 /// knots being shared.
+#[inline(never)] // rare: not for engines of the web to compile with the rest
 fn bound_over_segments(
     stretch: &Stretch<'_>,
     piece: &Piece,
@@ -467,7 +470,7 @@ fn bound_over_segments(
                 let width = (to - from) / segment.length();
                 let series = Series::new(spiral.k, middle / segment.length() - 0.5, width);
                 let unit = (to - from) / 2.0;
-                let turn = Complex64::from_polar(piece.half / unit, -segment.direction(middle));
+                let turn = unit_vector(-segment.direction(middle)) * (piece.half / unit);
                 let (centre, _) = in_frame(segment, middle, origin, piece.half);
                 let mut local = cubic.0;
                 local[0] -= centre;
@@ -490,7 +493,7 @@ fn bound_over_segments(
 /// A place on a segment in the frame of a piece.
 fn in_frame(segment: &Segment, s: f64, origin: kurbo::Point, half: f64) -> (Complex64, Complex64) {
     let off = (segment.point(s) - origin) / half;
-    (Complex64::new(off.x, off.y), Complex64::from_polar(1.0, segment.direction(s)))
+    (Complex64::new(off.x, off.y), unit_vector(segment.direction(s)))
 }
 
 /// Part of a segment beside part of a cubic.
@@ -526,7 +529,7 @@ fn bound_by_curvature(
     };
     let at = |s: f64, guess: f64, limits: [f64; 2]| {
         let here = place(s, guess);
-        let tangent = Complex64::from_polar(1.0, here.direction);
+        let tangent = unit_vector(here.direction);
         let param = foot(cubic, here.point, tangent, guess).clamp(limits[0], limits[1]);
         Place { param, ..here }
     };
@@ -602,7 +605,7 @@ fn largest_from_hermite(cubic: &LocalCubic, ends: &[Place; 2], h: f64) -> Option
     const STEPS: u32 = 8;
     let [start, end] = ends;
     let width = end.param - start.param;
-    let tangents = [start, end].map(|place| Complex64::from_polar(1.0, place.direction));
+    let tangents = [start, end].map(|place| unit_vector(place.direction));
     let [d0, d1] = [0, 1].map(|i| h / dot(cubic.velocity(ends[i].param), tangents[i]));
     // A cubic with such slopes grows (Fritsch and Carlson 1980).
     let may_be = 0.0..=3.0 * width;
@@ -634,7 +637,7 @@ fn largest_from_hermite(cubic: &LocalCubic, ends: &[Place; 2], h: f64) -> Option
     for step in 0..=STEPS {
         let u = f64::from(step) / f64::from(STEPS);
         let off = q.iter().rev().fold(Complex64::ZERO, |sum, c| sum * u + c);
-        let normal = Complex64::from_polar(1.0, start.direction + turn * u) * Complex64::I;
+        let normal = unit_vector(start.direction + turn * u) * Complex64::I;
         least = least.max(dot(off, normal).abs());
         largest = largest.max(off.norm_sqr());
     }

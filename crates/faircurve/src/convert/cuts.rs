@@ -22,6 +22,7 @@ pub(super) fn cut(fitter: &Fitter<'_>, cuts: Cuts, from: f64, to: f64) -> Vec<Cu
 }
 
 /// In two until the accuracy is met (section 9.6.2).
+#[inline(never)] // rare: not for engines of the web to compile with the rest
 fn halving(
     fitter: &Fitter<'_>,
     from: f64,
@@ -56,6 +57,7 @@ fn halving(
 
 /// With as many as greedy, all with the same error: the greedy cut to a smaller target, at which the last
 /// cubic just fits, too (section 9.6.4).
+#[inline(never)] // rare: not for engines of the web to compile with the rest
 fn equal_errors(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
     /// The target is found to this, relatively.
     const RESOLUTION: f64 = 1e-9;
@@ -167,6 +169,7 @@ fn reach(fitter: &Fitter<'_>, from: f64, to: f64, target: f64, guess: f64) -> Op
 }
 
 /// With as many as greedy, neighbours getting the same error two at a time (section 9.6.3).
+#[inline(never)] // rare: not for engines of the web to compile with the rest
 fn balanced(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
     /// Sweeps over all of the cuts; each evens out neighbours, and in n sweeps the ends of n pieces have heard of each
     /// other.
@@ -311,6 +314,7 @@ impl Search {
 
 /// A longer cubic than the longest of a stretch of lengths: the error isn't monotone. It falls again
 /// where E₆, a function of the piece's middle, changes its sign.
+#[inline(never)] // rare: not for engines of the web to compile with the rest
 fn beyond(fitter: &Fitter<'_>, cubic: &Cubic, to: f64, shortest: f64) -> Option<Cubic> {
     /// Where it is looked for: steps of 5 % up to twice the length.
     const STEP: f64 = 1.05;

@@ -51,6 +51,7 @@ type Step = [Option<Reached>; STANDS];
 ///
 /// Of all ways to reach a joint with k cubics, only the farthest is kept for each stand: a dynamic programme, exact
 /// where the error is monotone.
+#[inline(never)] // rare: not for engines of the web to compile with the rest
 pub(super) fn cut(fitter: &Fitter<'_>, from: f64, to: f64) -> Vec<Cubic> {
     let plain = greedy(fitter, from, to);
     let mut steps: Vec<Step> = Vec::new();

@@ -1,16 +1,17 @@
 //! A deviation between the places at which it is measured: the polynomial through them, on a grid.
 
+use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 use super::piece::{NODES, PLACES, Piece};
+use crate::numeric::trig::cis;
 
 /// Places at which deviations are known: ϑ = π/32 … 31π/32, x = −cos ϑ. The best cubic's lobes are about 5 wide.
 pub(super) const GRID: usize = 31;
 
 /// x of a point of the grid.
 fn place(g: usize) -> f64 {
-    let x = -(std::f64::consts::PI * (g + 1) as f64 / (GRID + 1) as f64).cos();
-    if g == GRID / 2 { 0.0 } else { x }
+    if g == GRID / 2 { 0.0 } else { -cis(PI * (g + 1) as f64 / (GRID + 1) as f64).re }
 }
 
 /// Half of the grid: places x ≥ 0, the middle first.

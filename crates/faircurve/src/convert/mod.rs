@@ -21,6 +21,7 @@ use kurbo::{BezPath, CubicBez, PathSeg};
 
 use crate::curve::Curve;
 use crate::numeric::order::sort_by;
+use crate::numeric::trig::unit_vector;
 use crate::segment::{Segment, Shape};
 use crate::tolerance::SOLVED;
 
@@ -134,7 +135,8 @@ fn simple_segments(curve: &Curve) -> Vec<Segment> {
 /// Whether the direction is continuous from one segment to the next.
 fn joins_smoothly(before: &Segment, after: &Segment) -> bool {
     let turn = after.direction(0.0) - before.direction(before.length());
-    turn.sin().abs() <= SOLVED && turn.cos() > 0.0
+    let turned = unit_vector(turn);
+    turned.im.abs() <= SOLVED && turned.re > 0.0
 }
 
 /// `start`: the arc length of the curve at which the stretch starts.

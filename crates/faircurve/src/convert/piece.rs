@@ -4,7 +4,7 @@ use kurbo::{Point, Vec2};
 use num_complex::Complex64;
 
 use crate::numeric::roots::monotone_root;
-use crate::numeric::trig::cis;
+use crate::numeric::trig::{cis, unit_vector};
 use crate::segment::{Segment, Shape};
 
 use super::series::Series;
@@ -232,12 +232,7 @@ pub(super) struct Joint {
 }
 
 fn unit(direction: f64) -> Vec2 {
-    /// As far as [`cis`] is good to its last bits.
-    const LARGEST: f64 = 1e6;
-    if direction.abs() > LARGEST {
-        return Vec2::from_angle(direction);
-    }
-    let Complex64 { re, im } = cis(direction);
+    let Complex64 { re, im } = unit_vector(direction);
     Vec2::new(re, im)
 }
 
@@ -287,8 +282,9 @@ impl Piece {
             self.offsets[end] = offset;
             self.ends[end] += self.end_tangents[end] * Complex64::new(0.0, offset);
             // With n(x) the deviation along the normal the cubic's direction is that of 1 − κn + i n′.
-            self.slopes[end] = turn.tan() * (1.0 - self.end_curvature[end] * offset);
-            self.end_tangents[end] *= Complex64::from_polar(1.0, turn);
+            let turned = cis(turn);
+            self.slopes[end] = turned.im / turned.re * (1.0 - self.end_curvature[end] * offset);
+            self.end_tangents[end] *= turned;
         }
         self
     }

@@ -69,6 +69,14 @@ pub(crate) fn cis(angle: f64) -> Complex64 {
     Complex64::new(cos, sin)
 }
 
+/// The same for any finite angle.
+#[inline(never)] // for the size of the web's module
+pub(crate) fn unit_vector(angle: f64) -> Complex64 {
+    /// As far as [`cis`] is good to its last bits.
+    const LARGEST: f64 = 1e6;
+    if angle.abs() <= LARGEST { cis(angle) } else { Complex64::cis(angle) }
+}
+
 /// The argument of `z`, to 3e-16, sooner where it is small.
 #[inline]
 pub(crate) fn argument(z: Complex64) -> f64 {

@@ -17,6 +17,7 @@ use crate::numeric::order::sort_by;
 use crate::numeric::quadrature::integrate;
 use crate::numeric::roots::{monotone_root, roots_between};
 use crate::numeric::spiro_integral::{angle, curvature_jet, spiro_integral_between, wildness};
+use crate::numeric::trig::unit_vector;
 
 pub use bezier::UnitBezier;
 pub use measured::{Measured, ParametricCurve};
@@ -394,7 +395,7 @@ impl Segment {
                 let along = |from: f64, to: f64| {
                     let middle = (from + to) / 2.0;
                     let (chord, _) = elastica.moved(middle).centred_arc(to - from);
-                    let turn = Complex64::cis(elastica.at(middle).direction);
+                    let turn = unit_vector(elastica.at(middle).direction);
                     self.turned(chord * turn * self.length)
                 };
                 if local < 0.0 {
@@ -612,7 +613,7 @@ impl Segment {
             Shape::Line => Vec::new(),
             Shape::Spiral(spiral) => self.axis_extrema_of_spiral(*spiral),
             Shape::Elastica(_) | Shape::Unit(_) => {
-                self.sign_changes(|s| (2.0 * self.direction(s)).sin())
+                self.sign_changes(|s| unit_vector(2.0 * self.direction(s)).im)
             }
             Shape::Chain(members) => {
                 let mut places = places_in(members, Segment::axis_extrema);
@@ -622,7 +623,7 @@ impl Segment {
                     before += member.length;
                     let direction = member.direction(member.length);
                     let rounding = 8.0 * f64::EPSILON * (1.0 + direction.abs());
-                    if (2.0 * direction).sin().abs() <= rounding {
+                    if unit_vector(2.0 * direction).im.abs() <= rounding {
                         places.push(before);
                     }
                 }
@@ -864,7 +865,7 @@ impl Segment {
 
     /// A vector of the shape's own frame, turned into place.
     fn turned(&self, local: Complex64) -> Vec2 {
-        let turned = local * Complex64::from_polar(1.0, self.heading);
+        let turned = local * unit_vector(self.heading);
         Vec2::new(turned.re, turned.im)
     }
 
