@@ -168,11 +168,14 @@ fn times_vector<const B: usize>(a: &Block<B>, x: &[f64; B]) -> [f64; B] {
     result
 }
 
-/// The inverse: of two rows by Cramer's rule, where little cancels, else by elimination.
+/// The inverse: of one row the reciprocal, of two by Cramer's rule, where little cancels, else by elimination.
 #[inline(always)]
 pub(crate) fn invert<const B: usize>(matrix: &Block<B>) -> Block<B> {
     /// A determinant as large as this leaves all but two digits.
     const LARGE: f64 = 0.01;
+    if B == 1 && matrix[0][0] != 0.0 {
+        return [[1.0 / matrix[0][0]; B]; B];
+    }
     if B == 2 {
         let [a, b, c, d] = [matrix[0][0], matrix[0][1], matrix[1][0], matrix[1][1]];
         let (ad, bc) = (a * d, b * c);

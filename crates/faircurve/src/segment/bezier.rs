@@ -28,7 +28,11 @@ impl UnitBezier {
     /// The cubic whose arms, along the end tangents, have these lengths; negative ones point
     /// backwards. `start` and `end` are the directions of the tangents.
     pub fn from_arms(start: f64, end: f64, arms: [f64; 2]) -> Self {
-        let [first, last] = [(start, arms[0]), (end, arms[1])].map(|(angle, arm)| cis(angle) * arm);
+        UnitBezier::from_legs(cis(start) * arms[0], cis(end) * arms[1])
+    }
+
+    /// The cubic whose first and last leg, from control point to control point, are these.
+    pub(crate) fn from_legs(first: Complex64, last: Complex64) -> Self {
         let (p1, p2) = (point(first), point(1.0 - last));
         let cubic = CubicBez::new(Point::ORIGIN, p1, p2, Point::new(1.0, 0.0));
         let velocity = [first, 1.0 - first - last, last].map(|leg| leg * 3.0);

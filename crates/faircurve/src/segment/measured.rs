@@ -36,10 +36,12 @@ pub trait ParametricCurve: fmt::Debug + Send + Sync {
 #[derive(Clone, Debug)]
 pub struct Measured<C> {
     curve: C,
-    panels: Vec<Panel>,
-    length: f64,
-    /// Its direction where it ends.
+    /// Its directions where it starts and ends.
+    start: f64,
     end: f64,
+    length: f64,
+    /// The panels after the first; mostly none.
+    later: Vec<Panel>,
     breaks: Vec<f64>,
 }
 
@@ -67,8 +69,14 @@ impl<C: ParametricCurve> Measured<C> {
     /// isn't known but found.
     pub fn new(curve: C) -> Self {
         let start = argument(tangent(&curve, 0.0, true));
-        let mut measured =
-            Measured { curve, panels: Vec::new(), length: 0.0, end: start, breaks: Vec::new() };
+        let mut measured = Measured {
+            curve,
+            start,
+            end: start,
+            length: 0.0,
+            later: Vec::new(),
+            breaks: Vec::new(),
+        };
         let whole = measured.arc(0.0, 1.0);
         if measured.curve.is_gentle() {
             measured.push(0.0, 1.0, whole);
@@ -82,7 +90,7 @@ impl<C: ParametricCurve> Measured<C> {
         if measured.length < 1.0 {
             measured.length = 1.0;
         }
-        measured.breaks = measured.panels.iter().skip(1).map(|panel| panel.s).collect();
+        measured.breaks = measured.later.iter().map(|panel| panel.s).collect();
         measured
     }
 
@@ -92,7 +100,9 @@ impl<C: ParametricCurve> Measured<C> {
 
     /// Appends the panel from `u` to `to`, of that length.
     fn push(&mut self, u: f64, to: f64, length: f64) {
-        self.panels.push(Panel { u, s: self.length, direction: self.end });
+        if u > 0.0 {
+            self.later.push(Panel { u, s: self.length, direction: self.end });
+        }
         self.length += length;
         let (a, b) = (tangent(&self.curve, u, true), tangent(&self.curve, to, false));
         self.end += argument(b * a.conj());
@@ -108,7 +118,7 @@ impl<C: ParametricCurve> Measured<C> {
         let (left, right) = (self.arc(u, middle), self.arc(middle, to));
         let is_short = whole < NEGLIGIBLE * noise;
         let is_even = (left + right - whole).abs() <= noise;
-        let is_enough = depth == 0 || self.panels.len() >= MOST_PANELS || !whole.is_finite();
+        let is_enough = depth == 0 || self.later.len() + 1 >= MOST_PANELS || !whole.is_finite();
         if is_enough || is_short || (is_even && self.turn(u, to) < MOST_TURN) {
             self.push(u, to, left + right);
             return;
@@ -131,12 +141,11 @@ impl<C: ParametricCurve> Measured<C> {
         at.windows(2).map(sine).sum()
     }
 
-    fn panel_at(&self, key: impl Fn(&Panel) -> bool) -> usize {
-        self.panels.partition_point(key).max(1) - 1
-    }
-
-    fn panel_end(&self, index: usize) -> f64 {
-        self.panels.get(index + 1).map_or(1.0, |next| next.u)
+    /// The last panel of which `key` holds, as it does of those up to some place, and the one after it.
+    fn panel_at(&self, key: impl Fn(&Panel) -> bool) -> (Panel, Option<&Panel>) {
+        let after = self.later.partition_point(key);
+        let first = Panel { u: 0.0, s: 0.0, direction: self.start };
+        (after.checked_sub(1).map_or(first, |index| self.later[index]), self.later.get(after))
     }
 
     /// The parameter at arc length `s`.
@@ -148,10 +157,10 @@ impl<C: ParametricCurve> Measured<C> {
         } else if s >= self.length {
             return 1.0;
         }
-        let index = self.panel_at(|panel| panel.s <= s);
-        let (panel, end) = (self.panels[index], self.panel_end(index));
+        let (panel, next) = self.panel_at(|panel| panel.s <= s);
+        let end = next.map_or(1.0, |next| next.u);
         let wanted = s - panel.s;
-        let whole = self.panels.get(index + 1).map_or(self.length, |next| next.s) - panel.s;
+        let whole = next.map_or(self.length, |next| next.s) - panel.s;
         let (mut low, mut high) = (panel.u, end);
         let mut u = panel.u + (end - panel.u) * if whole > 0.0 { wanted / whole } else { 0.5 };
         for _ in 0..MOST_STEPS {
@@ -177,7 +186,7 @@ impl<C: ParametricCurve> Measured<C> {
     /// The arc length at a parameter.
     pub fn arc_length(&self, u: f64) -> f64 {
         let u = u.clamp(0.0, 1.0);
-        let panel = self.panels[self.panel_at(|panel| panel.u <= u)];
+        let (panel, _) = self.panel_at(|panel| panel.u <= u);
         (panel.s + self.arc(panel.u, u)).min(self.length)
     }
 }
@@ -190,6 +199,10 @@ fn size(z: Complex64) -> f64 {
 
 /// The unit vector in the direction of travel just after (or before) a parameter.
 fn tangent(curve: &impl ParametricCurve, u: f64, after: bool) -> Complex64 {
+    let velocity = curve.velocity(u);
+    if velocity.norm_sqr() > 0.0 {
+        return velocity / size(velocity);
+    }
     let series = curve.velocity_series(u);
     let Some(order) = series.iter().position(|v| v.norm_sqr() > 0.0) else {
         return Complex64::ONE;
@@ -252,11 +265,11 @@ impl<C: ParametricCurve> UnitCurve for Measured<C> {
 
     fn direction(&self, s: f64) -> f64 {
         if s <= 0.0 {
-            return self.panels[0].direction;
+            return self.start;
         } else if s >= self.length {
             return self.end;
         }
-        let panel = self.panels[self.panel_at(|panel| panel.s <= s)];
+        let (panel, _) = self.panel_at(|panel| panel.s <= s);
         let start = tangent(&self.curve, panel.u, true);
         let here = tangent(&self.curve, self.parameter(s), true);
         panel.direction + argument(here * start.conj())

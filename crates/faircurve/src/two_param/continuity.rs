@@ -138,6 +138,10 @@ enum Equation {
 /// The tangents of a run and the equations for them.
 struct TangentSystem<'a> {
     map: &'a dyn CurvatureMap,
+    /// What the map says of itself, asked once.
+    is_linear: bool,
+    order: f64,
+    limit: f64,
     contexts: Vec<SegmentContext>,
     /// The roots of the chords.
     roots: Vec<f64>,
@@ -195,6 +199,9 @@ impl<'a> TangentSystem<'a> {
         let contexts: Vec<SegmentContext> = (0..segments).map(|i| context(run, i)).collect();
         let mut system = TangentSystem {
             map,
+            is_linear: map.is_linear(),
+            order: map.order(),
+            limit: map.limit(),
             roots: contexts.iter().map(|context| context.chord.sqrt()).collect(),
             contexts,
             turns: run.knots.iter().map(|knot| knot.turn).collect(),
@@ -246,6 +253,9 @@ impl<'a> TangentSystem<'a> {
         let longest = self.contexts.iter().map(|context| context.chord).fold(0.0, f64::max);
         let mut rounded = TangentSystem {
             map: self.map,
+            is_linear: self.is_linear,
+            order: self.order,
+            limit: self.limit,
             contexts: self.contexts.clone(),
             roots: Vec::with_capacity(self.contexts.len()),
             turns: self.turns.clone(),
@@ -351,7 +361,7 @@ impl<'a> TangentSystem<'a> {
     fn evaluate(&mut self) {
         /// Radians over which smooth maps differ from linear ones by less than rounding.
         const NEAR: f64 = 1e-10;
-        let most = if self.map.order() == 1.0 { NEAR } else { 0.0 };
+        let most = if self.order == 1.0 { NEAR } else { 0.0 };
         for segment in 0..self.contexts.len() {
             let angles = self.angles(segment);
             if let Some(known) = self.answered.get_mut(segment) {
@@ -372,7 +382,7 @@ impl<'a> TangentSystem<'a> {
 
     /// Brings both angles at a knot within the family's limit.
     fn keep_in_range(&mut self, i: usize) {
-        let limit = self.map.limit();
+        let limit = self.limit;
         let n = self.tangents.len();
         let (mut low, mut high) = (-limit, limit);
         if self.closed || (i > 0 && i + 1 < n) {
@@ -412,7 +422,7 @@ impl TangentSystem<'_> {
         // How theta1 of the segment after responds to the unknown of the next knot.
         let next = if !self.closed && i + 2 == n { 1.0 } else { -1.0 };
         match (self.equations[i], left, right) {
-            (Equation::Continuous, Some(l), Some(r)) if self.map.is_linear() => {
+            (Equation::Continuous, Some(l), Some(r)) if self.is_linear => {
                 // κ/c on both sides, over the sum's response to the knot's own angle, so that the
                 // equation is in radians; the chords first over the longer one, which keeps their
                 // products in the range of numbers.
@@ -467,7 +477,10 @@ impl TangentSystem<'_> {
     fn order_at(&self, before: usize, after: usize) -> f64 {
         /// An end's curvature over that of the other end, below which it is near an inflection.
         const NEAR: f64 = 0.3;
-        let order = self.map.order();
+        let order = self.order;
+        if order == 1.0 {
+            return order;
+        }
         let is_near = |segment: usize, end: usize| {
             let value = &self.responses[segment].value;
             value[end].num.abs() < NEAR * value[1 - end].num.abs()
@@ -578,7 +591,7 @@ impl System<1> for TangentSystem<'_> {
     fn advance(&mut self, step: &[[f64; 1]]) -> f64 {
         /// Radians a knot may turn in one step.
         const CLAMP: f64 = 0.7;
-        let most = if self.map.is_linear() { f64::INFINITY } else { CLAMP };
+        let most = if self.is_linear { f64::INFINITY } else { CLAMP };
         let mut size = 0.0f64;
         for (i, [step]) in step.iter().enumerate() {
             if step.is_finite() {
@@ -621,9 +634,12 @@ impl Turned {
     fn straightened_angle_to(&self, other: &Turned, order: f64) -> (f64, [f64; 2]) {
         /// Curvatures over their common size count as no smaller in derivatives.
         const SMALLEST: f64 = 1e-200;
+        if order == 1.0 {
+            return (self.angle_to(other), [1.0; 2]);
+        }
         let curvatures = [self.num / self.den, other.num / other.den];
         let size = curvatures[0].abs().max(curvatures[1].abs());
-        if order == 1.0 || !(size > 0.0 && size.is_finite()) {
+        if !(size > 0.0 && size.is_finite()) {
             return (self.angle_to(other), [1.0; 2]);
         }
         let roots = curvatures.map(|k| size * (k.abs() / size).powf(1.0 / order).copysign(k));

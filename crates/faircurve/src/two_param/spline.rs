@@ -82,19 +82,21 @@ impl Drawing<'_> {
 
     fn assess(&self, run: &Run, tangents: Tangents, segments: Vec<Segment>) -> RunSolution {
         let n = run.knots.len();
-        let Tangents { mut adapted, iterations, stage, mismatch, .. } = tangents;
+        let Tangents { ends, mut adapted, iterations, stage, mismatch } = tangents;
         let mut relaxed = Vec::new();
         let mut residual = 0.0f64;
         for (i, mismatch) in mismatch.into_iter().enumerate() {
             let mut off = if mismatch.is_nan() { f64::MAX } else { mismatch };
             let mut turns = 0.0f64;
             if run.closed || (i > 0 && i + 1 < n) {
-                let (before, after) = (&segments[(i + n - 1) % n], &segments[i]);
+                let previous = if i == 0 { n - 1 } else { i - 1 };
+                let (before, after) = (&segments[previous], &segments[i]);
                 if self.info.continuity() > 0 {
                     turns = jump_of_direction(before, after);
                 }
                 if self.keeps_curvature() {
-                    off = off.max(jump_of_curvature(before, after));
+                    let chords = [previous, i].map(|segment| ends[segment].context.chord);
+                    off = off.max(jump_of_curvature(before, after, chords));
                 }
             } else if let Some(tangent) = run.knots[i].tangent {
                 turns = if i == 0 {
@@ -192,12 +194,11 @@ fn off_direction(a: f64, b: f64) -> f64 {
     wrap_angle(b - a).abs()
 }
 
-/// Of curvature times the harmonic mean of the chords; at what is all but a cusp, where that product is
+/// Of curvature times the harmonic mean of the chords, given before and after; at what is all but a cusp, where that product is
 /// large, less by the square of it.
-fn jump_of_curvature(before: &Segment, after: &Segment) -> f64 {
+fn jump_of_curvature(before: &Segment, after: &Segment, [a, b]: [f64; 2]) -> f64 {
     /// Curvature times chord from which on a bend is as good as a cusp.
     const CUSP: f64 = 32.0;
-    let (a, b) = (before.chord_length(), after.chord_length());
     let h = 2.0 * a * b / (a + b);
     let (arriving, leaving) = (before.curvature(before.length()) * h, after.curvature(0.0) * h);
     let least = (arriving.abs().min(leaving.abs()) / CUSP).max(1.0);

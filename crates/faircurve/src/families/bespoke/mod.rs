@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use kurbo::Point;
+use num_complex::Complex64;
 
 use super::catalog::{Claim, ParamKind, ParamSpec, Params, SplineInfo};
 use super::shapes;
@@ -199,7 +200,10 @@ impl SegmentShape for BespokeCubics {
         if is_straight && theta0.abs() < FRAC_PI_2 && theta1.abs() < FRAC_PI_2 {
             return Segment::line(start, end);
         }
-        let cubic = UnitBezier::from_arms(-theta0, theta1, [a, b]);
+        let [first, last] = tangents;
+        let legs =
+            [Complex64::new(first.cos, -first.sin) * a, Complex64::new(last.cos, last.sin) * b];
+        let cubic = UnitBezier::from_legs(legs[0], legs[1]);
         Segment::unit_curve(start, end, Arc::new(Measured::new(cubic)))
     }
 
