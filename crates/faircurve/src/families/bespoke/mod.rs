@@ -78,107 +78,116 @@ pub(crate) fn parabola_end(angle: f64) -> (f64, f64) {
 #[derive(Clone, Copy, Debug)]
 pub struct BespokeCubics;
 
-/// The length of an arm, negative where it points backwards, and its derivatives.
+/// The lengths of both arms, at the start and at the end, negative where they point backwards, and their
+/// derivatives by the angle at their own end and at the other.
 #[derive(Clone, Copy, Debug)]
-struct Arm {
-    length: f64,
-    by_own: f64,
-    by_other: f64,
+struct Arms {
+    length: [f64; 2],
+    by_own: [f64; 2],
+    by_other: [f64; 2],
 }
 
-impl Arm {
+impl Arms {
     /// Bespoke section 3, with the cosine that its text prints as a sine (`docs/errata.md`).
-    fn new(own: &Tangent, other: &Tangent) -> Arm {
-        let (sin_2, cos_2) = (2.0 * other.sin * other.cos, 1.0 - 2.0 * other.sin * other.sin);
-        let inner = 2.0 * other.angle - 0.4 * sin_2;
-        let (sin_inner, cos_inner) = sin_cos(inner);
-        let theta_a = own.angle - 0.3 * sin_inner;
-        let by_other = -0.3 * cos_inner * (2.0 - 0.8 * cos_2);
-        let (sin, cos) = sin_cos(theta_a);
+    fn new(tangents: &Tangents) -> Arms {
+        // Both arms take the same steps side by side: two lanes of one register.
+        let Tangents { angle, sin, cos } = *tangents;
+        let other = |of: [f64; 2]| [of[1], of[0]];
+        let (theta_b, sin_b, cos_b) = (other(angle), other(sin), other(cos));
+        let inner = both(|i| 2.0 * theta_b[i] - 0.4 * (2.0 * sin_b[i] * cos_b[i]));
+        let (sin_inner, cos_inner) = sin_cos_of_both(inner);
+        let theta_a = both(|i| angle[i] - 0.3 * sin_inner[i]);
+        let theta_a_by_other =
+            both(|i| -0.3 * cos_inner[i] * (2.0 - 0.8 * (1.0 - 2.0 * sin_b[i] * sin_b[i])));
+        let (sin, cos) = sin_cos_of_both(theta_a);
         // cos 3x = 4 cos³ x − 3 cos x, so that the arm is exactly odd about π/2.
-        let length = 5.0 / 12.0 * cos * (1.6 - 0.8 * cos * cos);
-        let slope = 5.0 / 12.0 * sin * (2.4 * cos * cos - 1.6);
-        Arm { length, by_own: slope, by_other: slope * by_other }
+        let by_own = both(|i| 5.0 / 12.0 * sin[i] * (2.4 * cos[i] * cos[i] - 1.6));
+        Arms {
+            length: both(|i| 5.0 / 12.0 * cos[i] * (1.6 - 0.8 * cos[i] * cos[i])),
+            by_own,
+            by_other: both(|i| by_own[i] * theta_a_by_other[i]),
+        }
     }
 
-    /// The same at an end whose direction is given: forwards, so that the curve has that direction
-    /// and not its opposite.
-    fn forwards(self) -> Arm {
+    /// The same where the directions at these ends are given: forwards, so that the curve has that
+    /// direction and not its opposite.
+    fn forwards(mut self, given: [bool; 2]) -> Arms {
         /// Shorter arms have no say about the direction. Chosen: a fiftieth of the chord shows as a
         /// sharp bend, and is far from rounding.
         const SHORTEST: f64 = 0.02;
-        if self.length.abs() < SHORTEST {
-            return Arm { length: SHORTEST, by_own: 0.0, by_other: 0.0 };
+        for i in (0..2).filter(|&i| given[i]) {
+            let sign = self.length[i].signum();
+            let is_short = self.length[i].abs() < SHORTEST;
+            self.length[i] = if is_short { SHORTEST } else { sign * self.length[i] };
+            self.by_own[i] = if is_short { 0.0 } else { sign * self.by_own[i] };
+            self.by_other[i] = if is_short { 0.0 } else { sign * self.by_other[i] };
         }
-        let sign = self.length.signum();
-        Arm {
-            length: sign * self.length,
-            by_own: sign * self.by_own,
-            by_other: sign * self.by_other,
-        }
+        self
     }
 }
 
-/// A chord angle.
+/// The chord angles at the start and at the end.
 #[derive(Clone, Copy, Debug)]
-struct Tangent {
-    angle: f64,
-    sin: f64,
-    cos: f64,
+struct Tangents {
+    angle: [f64; 2],
+    sin: [f64; 2],
+    cos: [f64; 2],
 }
 
-impl Tangent {
-    /// Those at the start and at the end.
-    fn both(ChordAngles { theta0, theta1 }: ChordAngles) -> [Tangent; 2] {
-        [theta0, theta1].map(|angle| {
-            let (sin, cos) = sin_cos(angle);
-            Tangent { angle, sin, cos }
-        })
+impl Tangents {
+    fn new(ChordAngles { theta0, theta1 }: ChordAngles) -> Tangents {
+        let angle = [theta0, theta1];
+        let (sin, cos) = sin_cos_of_both(angle);
+        Tangents { angle, sin, cos }
     }
 }
 
-/// Both arms, at the start and at the end.
-fn arms([start, end]: &[Tangent; 2], context: &SegmentContext) -> [Arm; 2] {
-    let settle = |arm: Arm, given: bool| if given { arm.forwards() } else { arm };
-    [
-        settle(Arm::new(start, end), context.given_direction[0]),
-        settle(Arm::new(end, start), context.given_direction[1]),
-    ]
+/// What holds at the start and at the end.
+#[inline(always)]
+fn both(f: impl Fn(usize) -> f64) -> [f64; 2] {
+    [f(0), f(1)]
+}
+
+#[inline(always)]
+fn sin_cos_of_both(angles: [f64; 2]) -> ([f64; 2], [f64; 2]) {
+    let (start, end) = (sin_cos(angles[0]), sin_cos(angles[1]));
+    ([start.0, end.0], [start.1, end.1])
 }
 
 impl CurvatureMap for BespokeCubics {
     /// Of the cubic with arms a and b on the unit chord: κ = (2/3)(sin θ₀ − b sin(θ₀ + θ₁))/(a·|a|)
     /// at the start, and the mirror image at the end.
     fn curvatures(&self, angles: ChordAngles, context: &SegmentContext) -> EndCurvatures {
-        let tangents = Tangent::both(angles);
-        let [first, last] = &tangents;
-        let [start, end] = arms(&tangents, context);
+        const SCALE: f64 = 2.0 / 3.0;
+        let tangents = Tangents::new(angles);
+        let Tangents { sin, cos, .. } = tangents;
+        let arms = Arms::new(&tangents).forwards(context.given_direction);
         // Of the sum of both angles.
-        let sin_t = first.sin * last.cos + first.cos * last.sin;
-        let cos_t = first.cos * last.cos - first.sin * last.sin;
-        // Numerator and denominator, and their derivatives by the angle here and the other one.
-        let at_end = |&Tangent { sin, cos, .. }: &Tangent, here: &Arm, there: &Arm| {
-            let scale = 2.0 / 3.0;
-            let value = EndCurvature {
-                num: scale * (sin - there.length * sin_t),
-                den: here.length * here.length.abs(),
-            };
-            let slope = 2.0 * here.length.abs();
-            let by_own = EndCurvature {
-                num: scale * (cos - there.length * cos_t - there.by_other * sin_t),
-                den: slope * here.by_own,
-            };
-            let by_other = EndCurvature {
-                num: scale * (-there.length * cos_t - there.by_own * sin_t),
-                den: slope * here.by_other,
-            };
-            (value, by_own, by_other)
-        };
-        let (start_value, start_by_0, start_by_1) = at_end(first, &start, &end);
-        let (end_value, end_by_1, end_by_0) = at_end(last, &end, &start);
+        let sin_t = sin[0] * cos[1] + cos[0] * sin[1];
+        let cos_t = cos[0] * cos[1] - sin[0] * sin[1];
+        // The other end's arm.
+        let there = both(|i| arms.length[1 - i]);
+        let there_by_own = both(|i| arms.by_other[1 - i]);
+        let there_by_other = both(|i| arms.by_own[1 - i]);
+        let slope = both(|i| 2.0 * arms.length[i].abs());
+        // Numerators and denominators, and their derivatives by the angle here and the other one.
+        let value = [
+            both(|i| SCALE * (sin[i] - there[i] * sin_t)),
+            both(|i| arms.length[i] * arms.length[i].abs()),
+        ];
+        let by_own = [
+            both(|i| SCALE * (cos[i] - there[i] * cos_t - there_by_own[i] * sin_t)),
+            both(|i| slope[i] * arms.by_own[i]),
+        ];
+        let by_other = [
+            both(|i| SCALE * (-there[i] * cos_t - there_by_other[i] * sin_t)),
+            both(|i| slope[i] * arms.by_other[i]),
+        ];
+        let at =
+            |[num, den]: [[f64; 2]; 2], end: usize| EndCurvature { num: num[end], den: den[end] };
         EndCurvatures {
-            value: [start_value, end_value],
-            by_angle: [[start_by_0, start_by_1], [end_by_0, end_by_1]],
+            value: [at(value, 0), at(value, 1)],
+            by_angle: [[at(by_own, 0), at(by_other, 0)], [at(by_other, 1), at(by_own, 1)]],
         }
     }
 
@@ -193,17 +202,16 @@ impl CurvatureMap for BespokeCubics {
 
 impl SegmentShape for BespokeCubics {
     fn place(&self, start: Point, end: Point, ends: &SegmentEnds) -> Segment {
-        let ChordAngles { theta0, theta1 } = ends.angles;
-        let tangents = Tangent::both(ends.angles);
-        let [a, b] = arms(&tangents, &ends.context).map(|arm| arm.length);
-        let is_straight = a * tangents[0].sin == 0.0 && b * tangents[1].sin == 0.0;
-        if is_straight && theta0.abs() < FRAC_PI_2 && theta1.abs() < FRAC_PI_2 {
+        let tangents = Tangents::new(ends.angles);
+        let [a, b] = Arms::new(&tangents).forwards(ends.context.given_direction).length;
+        let Tangents { angle, sin, cos } = tangents;
+        let is_straight = a * sin[0] == 0.0 && b * sin[1] == 0.0;
+        if is_straight && angle.iter().all(|angle| angle.abs() < FRAC_PI_2) {
             return Segment::line(start, end);
         }
-        let [first, last] = tangents;
-        let legs =
-            [Complex64::new(first.cos, -first.sin) * a, Complex64::new(last.cos, last.sin) * b];
-        let cubic = UnitBezier::from_legs(legs[0], legs[1]);
+        let [first, last] =
+            [Complex64::new(cos[0], -sin[0]) * a, Complex64::new(cos[1], sin[1]) * b];
+        let cubic = UnitBezier::from_legs(first, last);
         Segment::unit_curve(start, end, Arc::new(Measured::new(cubic)))
     }
 

@@ -56,10 +56,8 @@ fn the_map_is_periodic() {
 
 #[test]
 fn arms_are_a_third_of_the_chord_on_a_line_and_vanish_at_a_right_angle() {
-    let arm = |own: f64, other: f64| {
-        let [own, other] = Tangent::both(ChordAngles::new(own, other));
-        Arm::new(&own, &other).length
-    };
+    let arm =
+        |own: f64, other: f64| Arms::new(&Tangents::new(ChordAngles::new(own, other))).length[0];
     assert!((arm(0.0, 0.0) - 1.0 / 3.0).abs() < 1e-16);
     assert!(arm(FRAC_PI_2, 0.0).abs() < 1e-16);
     assert!(arm(2.0, 0.0) < 0.0);
