@@ -85,16 +85,17 @@ impl Drawing<'_> {
         let Tangents { ends, mut adapted, iterations, stage, mismatch } = tangents;
         let mut relaxed = Vec::new();
         let mut residual = 0.0f64;
+        let (is_smooth, keeps_curvature) = (self.info.continuity() > 0, self.keeps_curvature());
         for (i, mismatch) in mismatch.into_iter().enumerate() {
             let mut off = if mismatch.is_nan() { f64::MAX } else { mismatch };
             let mut turns = 0.0f64;
             if run.closed || (i > 0 && i + 1 < n) {
                 let previous = if i == 0 { n - 1 } else { i - 1 };
                 let (before, after) = (&segments[previous], &segments[i]);
-                if self.info.continuity() > 0 {
+                if is_smooth {
                     turns = jump_of_direction(before, after);
                 }
-                if self.keeps_curvature() {
+                if keeps_curvature {
                     let chords = [previous, i].map(|segment| ends[segment].context.chord);
                     off = off.max(jump_of_curvature(before, after, chords));
                 }
