@@ -63,6 +63,7 @@ use super::series::{Polynomial, Series, TERMS};
 
 /// Steps of the grid: π/64 is where the parabola's remainder falls below the tangential part.
 const STEPS: usize = 64;
+/// How far apart they are in ϑ.
 const STEP: f64 = PI / STEPS as f64;
 
 /// Half of them: the grid is symmetric in x.

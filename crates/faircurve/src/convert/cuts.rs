@@ -314,7 +314,6 @@ impl Search {
 
 /// A longer cubic than the longest of a stretch of lengths: the error isn't monotone. It falls again
 /// where E₆, a function of the piece's middle, changes its sign.
-#[inline(never)] // rare: not for engines of the web to compile with the rest
 fn beyond(fitter: &Fitter<'_>, cubic: &Cubic, to: f64, shortest: f64) -> Option<Cubic> {
     /// Where it is looked for: steps of 5 % up to twice the length.
     const STEP: f64 = 1.05;

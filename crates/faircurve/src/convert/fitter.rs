@@ -1,13 +1,13 @@
 //! One cubic for one piece, by the metric and the kind of fit that are asked for.
 
-use kurbo::{CubicBez, Vec2};
+use kurbo::CubicBez;
 
 use super::certificate::{Sharpness, distance_bound};
 use super::contact;
 use super::metric::angle_error;
 use super::minimax::{Fit as Arms, LocalCubic, first_params, measure, minimax};
 use super::options::{Fit, Metric};
-use super::piece::{Piece, Shift, Stretch};
+use super::piece::{Piece, Shift, Stretch, unit};
 use super::single;
 use super::tuning::{HOPELESS, PLAIN_ARMS, PLAIN_BOUND, SHORT, UNSEEN};
 
@@ -128,7 +128,7 @@ impl Fitter<'_> {
             // Exact where there is nothing to move.
             if shift != Shift::NONE {
                 joint.point += joint.tangent.turn_90() * shift.offset;
-                joint.tangent = joint.tangent.rotate_scale(Vec2::from_angle(shift.turn));
+                joint.tangent = joint.tangent.rotate_scale(unit(shift.turn));
             }
         }
         let [from, to] = ends;

@@ -231,7 +231,7 @@ pub(super) struct Joint {
     pub(super) tangent: Vec2,
 }
 
-fn unit(direction: f64) -> Vec2 {
+pub(super) fn unit(direction: f64) -> Vec2 {
     let Complex64 { re, im } = unit_vector(direction);
     Vec2::new(re, im)
 }

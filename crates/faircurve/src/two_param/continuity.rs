@@ -135,13 +135,24 @@ enum Equation {
     Curvature(f64),
 }
 
-/// The tangents of a run and the equations for them.
-struct TangentSystem<'a> {
-    map: &'a dyn CurvatureMap,
-    /// What the map says of itself, asked once.
+/// What a map says of itself, asked once: the equations want it at every knot.
+#[derive(Clone, Copy, Debug)]
+struct Nature {
     is_linear: bool,
     order: f64,
     limit: f64,
+}
+
+impl Nature {
+    fn of(map: &dyn CurvatureMap) -> Nature {
+        Nature { is_linear: map.is_linear(), order: map.order(), limit: map.limit() }
+    }
+}
+
+/// The tangents of a run and the equations for them.
+struct TangentSystem<'a> {
+    map: &'a dyn CurvatureMap,
+    nature: Nature,
     contexts: Vec<SegmentContext>,
     /// The roots of the chords.
     roots: Vec<f64>,
@@ -199,9 +210,7 @@ impl<'a> TangentSystem<'a> {
         let contexts: Vec<SegmentContext> = (0..segments).map(|i| context(run, i)).collect();
         let mut system = TangentSystem {
             map,
-            is_linear: map.is_linear(),
-            order: map.order(),
-            limit: map.limit(),
+            nature: Nature::of(map),
             roots: contexts.iter().map(|context| context.chord.sqrt()).collect(),
             contexts,
             turns: run.knots.iter().map(|knot| knot.turn).collect(),
@@ -253,9 +262,7 @@ impl<'a> TangentSystem<'a> {
         let longest = self.contexts.iter().map(|context| context.chord).fold(0.0, f64::max);
         let mut rounded = TangentSystem {
             map: self.map,
-            is_linear: self.is_linear,
-            order: self.order,
-            limit: self.limit,
+            nature: self.nature,
             contexts: self.contexts.clone(),
             roots: Vec::with_capacity(self.contexts.len()),
             turns: self.turns.clone(),
@@ -361,7 +368,7 @@ impl<'a> TangentSystem<'a> {
     fn evaluate(&mut self) {
         /// Radians over which smooth maps differ from linear ones by less than rounding.
         const NEAR: f64 = 1e-10;
-        let most = if self.order == 1.0 { NEAR } else { 0.0 };
+        let most = if self.nature.order == 1.0 { NEAR } else { 0.0 };
         for segment in 0..self.contexts.len() {
             let angles = self.angles(segment);
             if let Some(known) = self.answered.get_mut(segment) {
@@ -382,7 +389,7 @@ impl<'a> TangentSystem<'a> {
 
     /// Brings both angles at a knot within the family's limit.
     fn keep_in_range(&mut self, i: usize) {
-        let limit = self.limit;
+        let limit = self.nature.limit;
         let n = self.tangents.len();
         let (mut low, mut high) = (-limit, limit);
         if self.closed || (i > 0 && i + 1 < n) {
@@ -422,7 +429,7 @@ impl TangentSystem<'_> {
         // How theta1 of the segment after responds to the unknown of the next knot.
         let next = if !self.closed && i + 2 == n { 1.0 } else { -1.0 };
         match (self.equations[i], left, right) {
-            (Equation::Continuous, Some(l), Some(r)) if self.is_linear => {
+            (Equation::Continuous, Some(l), Some(r)) if self.nature.is_linear => {
                 // κ/c on both sides, over the sum's response to the knot's own angle, so that the
                 // equation is in radians; the chords first over the longer one, which keeps their
                 // products in the range of numbers.
@@ -477,10 +484,7 @@ impl TangentSystem<'_> {
     fn order_at(&self, before: usize, after: usize) -> f64 {
         /// An end's curvature over that of the other end, below which it is near an inflection.
         const NEAR: f64 = 0.3;
-        let order = self.order;
-        if order == 1.0 {
-            return order;
-        }
+        let order = self.nature.order;
         let is_near = |segment: usize, end: usize| {
             let value = &self.responses[segment].value;
             value[end].num.abs() < NEAR * value[1 - end].num.abs()
@@ -591,7 +595,7 @@ impl System<1> for TangentSystem<'_> {
     fn advance(&mut self, step: &[[f64; 1]]) -> f64 {
         /// Radians a knot may turn in one step.
         const CLAMP: f64 = 0.7;
-        let most = if self.is_linear { f64::INFINITY } else { CLAMP };
+        let most = if self.nature.is_linear { f64::INFINITY } else { CLAMP };
         let mut size = 0.0f64;
         for (i, [step]) in step.iter().enumerate() {
             if step.is_finite() {
@@ -634,13 +638,14 @@ impl Turned {
     fn straightened_angle_to(&self, other: &Turned, order: f64) -> (f64, [f64; 2]) {
         /// Curvatures over their common size count as no smaller in derivatives.
         const SMALLEST: f64 = 1e-200;
+        let as_it_is = || (self.angle_to(other), [1.0; 2]);
         if order == 1.0 {
-            return (self.angle_to(other), [1.0; 2]);
+            return as_it_is();
         }
         let curvatures = [self.num / self.den, other.num / other.den];
         let size = curvatures[0].abs().max(curvatures[1].abs());
         if !(size > 0.0 && size.is_finite()) {
-            return (self.angle_to(other), [1.0; 2]);
+            return as_it_is();
         }
         let roots = curvatures.map(|k| size * (k.abs() / size).powf(1.0 / order).copysign(k));
         let more = [0, 1].map(|i| {

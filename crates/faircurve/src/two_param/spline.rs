@@ -195,8 +195,8 @@ fn off_direction(a: f64, b: f64) -> f64 {
     wrap_angle(b - a).abs()
 }
 
-/// Of curvature times the harmonic mean of the chords, given before and after; at what is all but a cusp, where that product is
-/// large, less by the square of it.
+/// Of curvature times the harmonic mean of the chords, which are given; at what is all but a cusp, where
+/// that product is large, less by the square of it.
 fn jump_of_curvature(before: &Segment, after: &Segment, [a, b]: [f64; 2]) -> f64 {
     /// Curvature times chord from which on a bend is as good as a cusp.
     const CUSP: f64 = 32.0;

@@ -92,8 +92,7 @@ impl Arms {
     fn new(tangents: &Tangents) -> Arms {
         // Both arms take the same steps side by side: two lanes of one register.
         let Tangents { angle, sin, cos } = *tangents;
-        let other = |of: [f64; 2]| [of[1], of[0]];
-        let (theta_b, sin_b, cos_b) = (other(angle), other(sin), other(cos));
+        let (theta_b, sin_b, cos_b) = (swapped(angle), swapped(sin), swapped(cos));
         let inner = both(|i| 2.0 * theta_b[i] - 0.4 * (2.0 * sin_b[i] * cos_b[i]));
         let (sin_inner, cos_inner) = sin_cos_of_both(inner);
         let theta_a = both(|i| angle[i] - 0.3 * sin_inner[i]);
@@ -148,6 +147,11 @@ fn both(f: impl Fn(usize) -> f64) -> [f64; 2] {
     [f(0), f(1)]
 }
 
+/// What each end has, at the other.
+fn swapped([start, end]: [f64; 2]) -> [f64; 2] {
+    [end, start]
+}
+
 #[inline(always)]
 fn sin_cos_of_both(angles: [f64; 2]) -> ([f64; 2], [f64; 2]) {
     let (start, end) = (sin_cos(angles[0]), sin_cos(angles[1]));
@@ -166,9 +170,8 @@ impl CurvatureMap for BespokeCubics {
         let sin_t = sin[0] * cos[1] + cos[0] * sin[1];
         let cos_t = cos[0] * cos[1] - sin[0] * sin[1];
         // The other end's arm.
-        let there = both(|i| arms.length[1 - i]);
-        let there_by_own = both(|i| arms.by_other[1 - i]);
-        let there_by_other = both(|i| arms.by_own[1 - i]);
+        let there = swapped(arms.length);
+        let (there_by_own, there_by_other) = (swapped(arms.by_other), swapped(arms.by_own));
         let slope = both(|i| 2.0 * arms.length[i].abs());
         // Numerators and denominators, and their derivatives by the angle here and the other one.
         let value = [
