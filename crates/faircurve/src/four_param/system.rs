@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 use super::constraint_table::{self as table, Condition, Quantity, SegmentConstraints, Side};
 use super::family::{Ends, FourParamFamily, Response};
 use crate::frame::{direction, wrap_angle};
-use crate::numeric::block_tridiagonal::BlockTridiagonal;
+use crate::numeric::block_tridiagonal::{BlockRow, BlockTridiagonal};
 use crate::numeric::newton::System;
 use crate::outline::Join;
 use crate::plan::Run;
@@ -608,9 +608,7 @@ impl System<2> for RunSystem<'_> {
                     values[row] -= to_end[0] * beyond.direction + to_end[1] * beyond.curvature;
                 }
             }
-            matrix.lower[i] = lower;
-            matrix.diagonal[i] = diagonal;
-            matrix.upper[i] = upper;
+            matrix.rows[i] = BlockRow::new(lower, diagonal, upper);
             matrix.right[i] = values;
         }
     }

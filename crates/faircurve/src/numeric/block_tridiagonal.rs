@@ -6,37 +6,44 @@
 /// A B × B matrix, by rows.
 pub type Block<const B: usize> = [[f64; B]; B];
 
-/// Row i says: `lower[i]`·x_{i−1} + `diagonal[i]`·x_i + `upper[i]`·x_{i+1} = `right[i]`.
-///
-/// In a cyclic system the indices wrap around; in an open one `lower[0]` and `upper[n − 1]` are
-/// ignored.
+/// The blocks of a row, which says: `lower`·x_{i−1} + `diagonal`·x_i + `upper`·x_{i+1} = `right[i]`.
+#[derive(Clone, Copy, Debug)]
+pub struct BlockRow<const B: usize> {
+    /// Coupling with the unknown before.
+    pub lower: Block<B>,
+    /// Coupling with the row's own unknown.
+    pub diagonal: Block<B>,
+    /// Coupling with the unknown after.
+    pub upper: Block<B>,
+    /// Coupling with the last unknown that elimination of a cyclic system fills in.
+    fill: Block<B>,
+}
+
+impl<const B: usize> BlockRow<B> {
+    /// A row of these blocks.
+    #[inline(always)]
+    pub fn new(lower: Block<B>, diagonal: Block<B>, upper: Block<B>) -> Self {
+        BlockRow { lower, diagonal, upper, fill: [[0.0; B]; B] }
+    }
+}
+
+/// A system of rows. In a cyclic one the indices wrap around; in an open one the first row's `lower` and the
+/// last one's `upper` are ignored.
 #[derive(Clone, Debug)]
 pub struct BlockTridiagonal<const B: usize> {
-    /// Coupling with the unknown before.
-    pub lower: Vec<Block<B>>,
-    /// Coupling with the row's own unknown.
-    pub diagonal: Vec<Block<B>>,
-    /// Coupling with the unknown after.
-    pub upper: Vec<Block<B>>,
+    /// The rows' blocks.
+    pub rows: Vec<BlockRow<B>>,
     /// Right-hand side; after [`solve`](Self::solve), the solution.
     pub right: Vec<[f64; B]>,
     cyclic: bool,
-    /// Coupling with the last unknown that elimination of a cyclic system fills in.
-    fill: Vec<Block<B>>,
 }
 
 impl<const B: usize> BlockTridiagonal<B> {
     /// A system of `n` block rows, all zero.
     pub fn new(n: usize, cyclic: bool) -> Self {
-        let zeros = || vec![[[0.0; B]; B]; n];
-        BlockTridiagonal {
-            lower: zeros(),
-            diagonal: zeros(),
-            upper: zeros(),
-            right: vec![[0.0; B]; n],
-            cyclic,
-            fill: if cyclic { zeros() } else { Vec::new() },
-        }
+        let zero = [[0.0; B]; B];
+        let rows = vec![BlockRow::new(zero, zero, zero); n];
+        BlockTridiagonal { rows, right: vec![[0.0; B]; n], cyclic }
     }
 
     /// The number of block rows.
@@ -59,69 +66,76 @@ impl<const B: usize> BlockTridiagonal<B> {
             (0, _) => {}
             (n, false) => self.solve_leading(n),
             (1, true) => {
-                let mut whole = self.diagonal[0];
-                add(&mut whole, &self.lower[0]);
-                add(&mut whole, &self.upper[0]);
+                let BlockRow { lower, diagonal: mut whole, upper, .. } = self.rows[0];
+                add(&mut whole, &lower);
+                add(&mut whole, &upper);
                 self.right[0] = times_vector(&invert(&whole), &self.right[0]);
             }
             (n, true) => self.solve_cyclic(n),
         }
     }
 
-    /// Forward elimination and back substitution over the first `n` rows as an open system;
-    /// `fill`, if there is one, is treated as further right-hand sides.
+    /// Forward elimination and back substitution over the first `n` rows as an open system; their
+    /// `fill` is treated as further right-hand sides, if there is one.
     fn solve_leading(&mut self, n: usize) {
-        for i in 0..n {
-            if i > 0 {
-                let lower = self.lower[i];
-                subtract_product(&mut self.diagonal[i], &lower, &self.upper[i - 1]);
-                let carried = times_vector(&lower, &self.right[i - 1]);
-                (0..B).for_each(|r| self.right[i][r] -= carried[r]);
-                if self.cyclic {
-                    let before = self.fill[i - 1];
-                    subtract_product(&mut self.fill[i], &lower, &before);
+        let cyclic = self.cyclic;
+        let (rows, rights) = (&mut self.rows[..n], &mut self.right[..n]);
+        let mut before: Option<(BlockRow<B>, [f64; B])> = None;
+        for (row, right) in rows.iter_mut().zip(rights.iter_mut()) {
+            if let Some((before, right_before)) = &before {
+                subtract_product(&mut row.diagonal, &row.lower, &before.upper);
+                subtract(right, &times_vector(&row.lower, right_before));
+                if cyclic {
+                    subtract_product(&mut row.fill, &row.lower, &before.fill);
                 }
             }
-            let inverse = invert(&self.diagonal[i]);
-            self.right[i] = times_vector(&inverse, &self.right[i]);
-            self.upper[i] = product(&inverse, &self.upper[i]);
-            if self.cyclic {
-                self.fill[i] = product(&inverse, &self.fill[i]);
+            let inverse = invert(&row.diagonal);
+            *right = times_vector(&inverse, right);
+            row.upper = product(&inverse, &row.upper);
+            if cyclic {
+                row.fill = product(&inverse, &row.fill);
             }
+            before = Some((*row, *right));
         }
-        for i in (0..n.saturating_sub(1)).rev() {
-            let carried = times_vector(&self.upper[i], &self.right[i + 1]);
-            (0..B).for_each(|r| self.right[i][r] -= carried[r]);
-            if self.cyclic {
-                let (upper, after) = (self.upper[i], self.fill[i + 1]);
-                subtract_product(&mut self.fill[i], &upper, &after);
+        let mut after: Option<(Block<B>, [f64; B])> = None;
+        for (row, right) in rows.iter_mut().zip(rights.iter_mut()).rev() {
+            if let Some((fill_after, right_after)) = &after {
+                subtract(right, &times_vector(&row.upper, right_after));
+                if cyclic {
+                    subtract_product(&mut row.fill, &row.upper, fill_after);
+                }
             }
+            after = Some((row.fill, *right));
         }
     }
 
     /// Borders the first n − 1 rows, an open system, with the last unknown.
     fn solve_cyclic(&mut self, n: usize) {
         let last = n - 1;
-        self.fill[..last].fill([[0.0; B]; B]);
-        self.fill[0] = self.lower[0];
-        let coupling = self.upper[last - 1];
-        add(&mut self.fill[last - 1], &coupling);
-        self.upper[last - 1] = [[0.0; B]; B];
+        self.rows.iter_mut().for_each(|row| row.fill = [[0.0; B]; B]);
+        self.rows[0].fill = self.rows[0].lower;
+        let coupling = std::mem::replace(&mut self.rows[last - 1].upper, [[0.0; B]; B]);
+        add(&mut self.rows[last - 1].fill, &coupling);
         self.solve_leading(last);
         // What remains of the last row once the others are expressed by the last unknown.
-        let mut schur = self.diagonal[last];
+        let BlockRow { lower, diagonal: mut schur, upper, .. } = self.rows[last];
         let mut right = self.right[last];
-        for (coupling, row) in [(self.lower[last], last - 1), (self.upper[last], 0)] {
-            subtract_product(&mut schur, &coupling, &self.fill[row]);
-            let carried = times_vector(&coupling, &self.right[row]);
-            (0..B).for_each(|r| right[r] -= carried[r]);
+        for (coupling, row) in [(lower, last - 1), (upper, 0)] {
+            subtract_product(&mut schur, &coupling, &self.rows[row].fill);
+            subtract(&mut right, &times_vector(&coupling, &self.right[row]));
         }
         let x = times_vector(&invert(&schur), &right);
         self.right[last] = x;
-        for i in 0..last {
-            let carried = times_vector(&self.fill[i], &x);
-            (0..B).for_each(|r| self.right[i][r] -= carried[r]);
+        for (row, right) in self.rows[..last].iter().zip(&mut self.right) {
+            subtract(right, &times_vector(&row.fill, &x));
         }
+    }
+}
+
+#[inline(always)]
+fn subtract<const B: usize>(target: &mut [f64; B], x: &[f64; B]) {
+    for r in 0..B {
+        target[r] -= x[r];
     }
 }
 
@@ -252,20 +266,20 @@ mod tests {
         let x: Vec<[f64; B]> = (0..n).map(|_| [(); B].map(|()| noise(&mut seed))).collect();
         let block = |seed: &mut u64| [(); B].map(|()| [(); B].map(|()| noise(seed)));
         for i in 0..n {
-            system.lower[i] = block(&mut seed);
-            system.upper[i] = block(&mut seed);
-            system.diagonal[i] = block(&mut seed);
-            (0..B).for_each(|r| system.diagonal[i][r][r] += 4.0);
-            let mut row = times_vector(&system.diagonal[i], &x[i]);
+            let (lower, upper) = (block(&mut seed), block(&mut seed));
+            let mut diagonal = block(&mut seed);
+            (0..B).for_each(|r| diagonal[r][r] += 4.0);
+            system.rows[i] = BlockRow::new(lower, diagonal, upper);
+            let mut row = times_vector(&diagonal, &x[i]);
             let mut couple = |block: &Block<B>, j: usize| {
                 let part = times_vector(block, &x[j]);
                 (0..B).for_each(|r| row[r] += part[r]);
             };
             if cyclic || i > 0 {
-                couple(&system.lower[i], (i + n - 1) % n);
+                couple(&lower, (i + n - 1) % n);
             }
             if cyclic || i + 1 < n {
-                couple(&system.upper[i], (i + 1) % n);
+                couple(&upper, (i + 1) % n);
             }
             system.right[i] = row;
         }

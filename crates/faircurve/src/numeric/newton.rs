@@ -100,6 +100,7 @@ pub fn newton_while<const B: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numeric::block_tridiagonal::BlockRow;
 
     /// x² = i + 1, coupled weakly: xᵢ² + (xᵢ₋₁ + xᵢ₊₁)/100 = known.
     struct Squares {
@@ -122,9 +123,7 @@ mod tests {
 
         fn linearize(&self, matrix: &mut BlockTridiagonal<1>) {
             for i in 0..self.x.len() {
-                matrix.diagonal[i] = [[2.0 * self.x[i]]];
-                matrix.lower[i] = [[0.01]];
-                matrix.upper[i] = [[0.01]];
+                matrix.rows[i] = BlockRow::new([[0.01]], [[2.0 * self.x[i]]], [[0.01]]);
                 matrix.right[i] = [self.error(i)];
             }
         }

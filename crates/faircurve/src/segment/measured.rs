@@ -25,10 +25,10 @@ pub trait ParametricCurve: fmt::Debug + Send + Sync {
     /// The piece between two parameters as a Bézier, if it is one exactly.
     fn bezier(&self, from: f64, to: f64) -> Option<PathSeg>;
 
-    /// Whether it is known without a try that the curve turns by less than a radian and sixteen nodes
-    /// measure it, or any part of it, to rounding.
-    fn is_gentle(&self) -> bool {
-        false
+    /// The whole length of a gentle curve: one of which it is known without a try that it turns by less
+    /// than a radian and that sixteen nodes measure it, or any part of it, to rounding. `None` for others.
+    fn gentle_length(&self) -> Option<f64> {
+        None
     }
 }
 
@@ -37,8 +37,9 @@ pub trait ParametricCurve: fmt::Debug + Send + Sync {
 pub struct Measured<C> {
     curve: C,
     /// Its directions where it starts and ends.
-    start: f64,
-    end: f64,
+    directions: [f64; 2],
+    /// Its curvatures there.
+    curvatures: [f64; 2],
     length: f64,
     /// The panels after the first; mostly none.
     later: Vec<Panel>,
@@ -68,24 +69,30 @@ impl<C: ParametricCurve> Measured<C> {
     /// Measures a curve. Takes sixteen evaluations of the velocity where it is gentle, some 50 where that
     /// isn't known but found.
     pub fn new(curve: C) -> Self {
-        let start = argument(tangent(&curve, 0.0, true));
-        let mut measured = Measured {
-            curve,
-            start,
-            end: start,
-            length: 0.0,
-            later: Vec::new(),
-            breaks: Vec::new(),
-        };
-        let whole = measured.arc(0.0, 1.0);
-        if measured.curve.is_gentle() {
-            measured.push(0.0, 1.0, whole);
-        } else {
-            // What lengths are known to. Where a long curve nearly stands still, its velocity is a small
-            // difference of large numbers: less would be noise, and panels without end.
-            let noise = 4.0 * f64::EPSILON * (1.0 + whole);
-            measured.measure([0.0, 1.0], whole, noise, 50);
+        match curve.gentle_length() {
+            Some(length) => Measured::gentle(curve, length.max(1.0)),
+            None => Measured::by_panels(curve),
         }
+    }
+
+    /// A single panel.
+    fn gentle(curve: C, length: f64) -> Self {
+        let (first, last) = (curve.velocity(0.0), curve.velocity(1.0));
+        let start = argument(first);
+        let directions = [start, start + argument(last * first.conj())];
+        Measured::with(curve, directions, length)
+    }
+
+    /// As many panels as it takes.
+    #[inline(never)] // for the size of the web's module
+    fn by_panels(curve: C) -> Self {
+        let start = argument(tangent(&curve, 0.0, true));
+        let mut measured = Measured::with(curve, [start; 2], 0.0);
+        let whole = measured.arc(0.0, 1.0);
+        // What lengths are known to. Where a long curve nearly stands still, its velocity is a small
+        // difference of large numbers: less would be noise, and panels without end.
+        let noise = 4.0 * f64::EPSILON * (1.0 + whole);
+        measured.measure([0.0, 1.0], whole, noise, 50);
         // What isn't a number stays so: the segment will be a straight line.
         if measured.length < 1.0 {
             measured.length = 1.0;
@@ -94,21 +101,27 @@ impl<C: ParametricCurve> Measured<C> {
         measured
     }
 
+    fn with(curve: C, directions: [f64; 2], length: f64) -> Self {
+        let curvatures = [curvature(&curve, 0.0), curvature(&curve, 1.0)];
+        Measured { curve, directions, curvatures, length, later: Vec::new(), breaks: Vec::new() }
+    }
+
     fn arc(&self, from: f64, to: f64) -> f64 {
         gauss_16(&|u| size(self.curve.velocity(u)), from, to)
     }
 
     /// Appends the panel from `u` to `to`, of that length.
     fn push(&mut self, u: f64, to: f64, length: f64) {
+        let direction = &mut self.directions[1];
         if u > 0.0 {
-            self.later.push(Panel { u, s: self.length, direction: self.end });
+            self.later.push(Panel { u, s: self.length, direction: *direction });
         }
         self.length += length;
         let (a, b) = (tangent(&self.curve, u, true), tangent(&self.curve, to, false));
-        self.end += argument(b * a.conj());
+        *direction += argument(b * a.conj());
         if to < 1.0 {
             // Through a cusp just at the joint.
-            self.end += argument(tangent(&self.curve, to, true) * b.conj());
+            *direction += argument(tangent(&self.curve, to, true) * b.conj());
         }
     }
 
@@ -144,7 +157,7 @@ impl<C: ParametricCurve> Measured<C> {
     /// The last panel of which `key` holds, as it does of those up to some place, and the one after it.
     fn panel_at(&self, key: impl Fn(&Panel) -> bool) -> (Panel, Option<&Panel>) {
         let after = self.later.partition_point(key);
-        let first = Panel { u: 0.0, s: 0.0, direction: self.start };
+        let first = Panel { u: 0.0, s: 0.0, direction: self.directions[0] };
         (after.checked_sub(1).map_or(first, |index| self.later[index]), self.later.get(after))
     }
 
@@ -212,6 +225,17 @@ fn tangent(curve: &impl ParametricCurve, u: f64, after: bool) -> Complex64 {
     if after || order % 2 == 0 { leading } else { -leading }
 }
 
+/// The curvature at a parameter.
+fn curvature(curve: &impl ParametricCurve, u: f64) -> f64 {
+    let [v0, v1, ..] = curve.velocity_series(u);
+    let squared = v0.norm_sqr();
+    written(if (1e-180..1e180).contains(&squared) {
+        (v0.conj() * v1).im / (squared * squared.sqrt())
+    } else {
+        (v1 * v0.inv()).im / size(v0)
+    })
+}
+
 /// What isn't a number, or too large for one, as a number.
 fn written(value: f64) -> f64 {
     if value.is_nan() { 0.0 } else { value.clamp(-LARGEST, LARGEST) }
@@ -265,9 +289,9 @@ impl<C: ParametricCurve> UnitCurve for Measured<C> {
 
     fn direction(&self, s: f64) -> f64 {
         if s <= 0.0 {
-            return self.start;
+            return self.directions[0];
         } else if s >= self.length {
-            return self.end;
+            return self.directions[1];
         }
         let (panel, _) = self.panel_at(|panel| panel.s <= s);
         let start = tangent(&self.curve, panel.u, true);
@@ -280,8 +304,12 @@ impl<C: ParametricCurve> UnitCurve for Measured<C> {
     }
 
     fn curvature(&self, s: f64) -> f64 {
-        let [v0, v1, ..] = self.curve.velocity_series(self.parameter(s));
-        written((v1 * v0.inv()).im / size(v0))
+        if s <= 0.0 {
+            return self.curvatures[0];
+        } else if s >= self.length {
+            return self.curvatures[1];
+        }
+        curvature(&self.curve, self.parameter(s))
     }
 
     fn breaks(&self) -> &[f64] {

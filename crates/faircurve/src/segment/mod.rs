@@ -47,6 +47,8 @@ pub struct UnitPiece {
     from: f64,
     to: f64,
     backwards: bool,
+    /// Units per unit of the curve.
+    scale: f64,
 }
 
 impl PartialEq for UnitPiece {
@@ -158,12 +160,12 @@ impl Segment {
     /// line if they coincide, or if the curve's length isn't finite.
     pub fn unit_curve(start: Point, end: Point, curve: Arc<dyn UnitCurve>) -> Self {
         let chord = end - start;
-        let length = chord.hypot() * curve.length();
+        let (scale, to) = (chord.hypot(), curve.length());
+        let length = scale * to;
         if chord == Vec2::ZERO || !length.is_finite() {
             return Segment::line(start, end);
         }
-        let to = curve.length();
-        let piece = UnitPiece { curve, from: 0.0, to, backwards: false };
+        let piece = UnitPiece { curve, from: 0.0, to, backwards: false, scale };
         Segment { start, end, shape: Shape::Unit(piece), length, heading: direction(chord) }
     }
 
@@ -276,11 +278,10 @@ impl Segment {
             Shape::Spiral(_) | Shape::Elastica(_) => None,
             Shape::Unit(piece) => {
                 let unit = piece.curve.bezier(piece.from, piece.to)?;
-                let scale = self.scale(piece);
                 let unit = if piece.backwards { unit.reverse() } else { unit };
                 let map = Affine::translate(self.start.to_vec2())
                     * Affine::rotate(self.heading)
-                    * Affine::scale(scale)
+                    * Affine::scale(piece.scale)
                     * Affine::translate(-unit.start().to_vec2());
                 Some(vec![with_ends(map * unit, self.start, self.end)])
             }
@@ -332,7 +333,7 @@ impl Segment {
             Shape::Spiral(spiral) => (curvature_jet(spiral.k, self.local(s))[0], self.length),
             Shape::Unit(piece) => {
                 let curvature = piece.curve.curvature(self.place_on(piece, s));
-                (if piece.backwards { -curvature } else { curvature }, self.scale(piece))
+                (if piece.backwards { -curvature } else { curvature }, piece.scale)
             }
             Shape::Elastica(_) | Shape::Chain(_) => return self.curvature_jet(s)[0],
         };
@@ -349,9 +350,8 @@ impl Segment {
                 (elastica.curvature_jet(self.local(s)), self.length, false)
             }
             Shape::Unit(piece) => {
-                let scale = self.scale(piece);
                 let jet = piece.curve.curvature_jet(self.place_on(piece, s));
-                (jet, scale, piece.backwards)
+                (jet, piece.scale, piece.backwards)
             }
             Shape::Chain(members) => {
                 let (member, s) = self.member(members, s);
@@ -405,7 +405,7 @@ impl Segment {
                 }
             }
             Shape::Unit(piece) => {
-                let scale = self.scale(piece);
+                let scale = piece.scale;
                 let at = |s: f64| piece.curve.point(piece.place(s));
                 let (here, end) = (at(s / scale), piece.length());
                 if 2.0 * s < self.length {
@@ -435,7 +435,7 @@ impl Segment {
             Shape::Line => (0.0, 0.0),
             Shape::Spiral(spiral) => (self.length, wildness(spiral.k)),
             Shape::Elastica(elastica) => (self.length, elastica.largest_curvature()),
-            Shape::Unit(piece) => (piece.curve.length() * self.scale(piece), 0.0),
+            Shape::Unit(piece) => (piece.curve.length() * piece.scale, 0.0),
             Shape::Chain(members) => {
                 return members.iter().map(Segment::rounding).fold(0.0, f64::max);
             }
@@ -551,7 +551,10 @@ impl Segment {
     ) -> Segment {
         let shape = match &self.shape {
             Shape::Line => return Segment::line(start, end),
-            Shape::Spiral(_) | Shape::Elastica(_) | Shape::Unit(_) => self.shape.clone(),
+            Shape::Spiral(_) | Shape::Elastica(_) => self.shape.clone(),
+            Shape::Unit(piece) => {
+                Shape::Unit(UnitPiece { scale: piece.scale * scale, ..piece.clone() })
+            }
             Shape::Chain(members) => {
                 let last = members.len() - 1;
                 let mut next = start;
@@ -751,7 +754,7 @@ impl Segment {
             }
             Shape::Unit(piece) => {
                 let unit = piece.curve.integral(piece.from, piece.to, &|jet| jet[0] * jet[0]);
-                (unit / self.scale(piece)).min(f64::MAX)
+                (unit / piece.scale).min(f64::MAX)
             }
             Shape::Chain(members) => members.iter().map(Segment::bending_energy).sum(),
         }
@@ -771,7 +774,7 @@ impl Segment {
             }
             Shape::Unit(piece) => {
                 let unit = piece.curve.integral(piece.from, piece.to, &|jet| jet[1] * jet[1]);
-                (unit / self.scale(piece).powi(3)).min(f64::MAX)
+                (unit / piece.scale.powi(3)).min(f64::MAX)
             }
             Shape::Chain(members) => members.iter().map(Segment::variation_energy).sum(),
         }
@@ -812,9 +815,8 @@ impl Segment {
                 ([k, force, force * k], self.length)
             }
             Shape::Unit(piece) => {
-                let scale = self.scale(piece);
                 let (a, b) = (self.place_on(piece, from), self.place_on(piece, to));
-                (piece.curve.curvature_bounds(a.min(b), a.max(b)), scale)
+                (piece.curve.curvature_bounds(a.min(b), a.max(b)), piece.scale)
             }
             Shape::Chain(members) => {
                 let mut before = 0.0;
@@ -847,19 +849,15 @@ impl Segment {
         local.iter().map(|s| ((s + 0.5) * self.length).clamp(0.0, self.length)).collect()
     }
 
-    /// Units per unit of the unit curve. 1 for a piece of length 0.
-    fn scale(&self, piece: &UnitPiece) -> f64 {
-        let scale = self.length / piece.length();
-        if scale > 0.0 && scale.is_finite() { scale } else { 1.0 }
-    }
-
-    /// The unit curve's arc length at arc length `s`: at the end its own to the bit, since next to a cusp
+    /// The unit curve's arc length at arc length `s`: at the ends its own to the bit, since next to a cusp
     /// the last bit turns the curve.
     fn place_on(&self, piece: &UnitPiece, s: f64) -> f64 {
-        match (s >= self.length, piece.backwards) {
-            (false, _) => piece.place(s / self.scale(piece)),
-            (true, false) => piece.to,
-            (true, true) => piece.from,
+        if s > 0.0 && s < self.length {
+            piece.place(s / piece.scale)
+        } else if (s >= self.length) == piece.backwards {
+            piece.from
+        } else {
+            piece.to
         }
     }
 
@@ -886,12 +884,11 @@ impl Segment {
     /// Both ends and the breaks between them, as arc lengths of the segment, ascending.
     fn stops(&self) -> Vec<f64> {
         let Shape::Unit(piece) = &self.shape else { return vec![0.0, self.length] };
-        let scale = self.scale(piece);
         let mut stops: Vec<f64> = piece
             .curve
             .stops(piece.from, piece.to)
             .into_iter()
-            .map(|s| if piece.backwards { piece.to - s } else { s - piece.from } * scale)
+            .map(|s| if piece.backwards { piece.to - s } else { s - piece.from } * piece.scale)
             .collect();
         sort_by(&mut stops, f64::total_cmp);
         stops

@@ -8,7 +8,7 @@ use super::curvature_map::{CurvatureMap, EndCurvatures, SegmentContext};
 use super::shape::SegmentEnds;
 use super::tangents::{TangentRule, Tangents, context, ignored_curvature};
 use crate::frame::{ChordAngles, EndCurvature, along_circle, direction, turning, wrap_angle};
-use crate::numeric::block_tridiagonal::BlockTridiagonal;
+use crate::numeric::block_tridiagonal::{BlockRow, BlockTridiagonal};
 use crate::numeric::newton::{Limits, System, newton};
 use crate::numeric::trig::argument;
 use crate::plan::Run;
@@ -62,7 +62,7 @@ impl<M: CurvatureMap> TangentRule for Continuity<M> {
         let mut exact = TangentSystem::new(&self.map, self.end, run);
         let mut matrix = BlockTridiagonal::new(n, run.closed);
         let mut rounded = exact.rounded();
-        let start = rounded.tangents.clone();
+        let start: Vec<f64> = rounded.knots.iter().map(|knot| knot.tangent).collect();
         let mut taken = 0;
         for attempt in 0.. {
             let most = steps.min(STEPS[attempt.min(STEPS.len() - 1)]);
@@ -73,14 +73,15 @@ impl<M: CurvatureMap> TangentRule for Continuity<M> {
                 rounded.give_up_unmet();
             }
             let worst = rounded.worst();
-            if worst.is_none_or(|i| rounded.mismatch[i] <= CLOSE) {
-                exact.tangents.clone_from(&rounded.tangents);
-                exact.given_up.clone_from(&rounded.given_up);
+            if worst.is_none_or(|i| rounded.knots[i].mismatch <= CLOSE) {
+                for (exact, rounded) in exact.knots.iter_mut().zip(&rounded.knots) {
+                    (exact.tangent, exact.given_up) = (rounded.tangent, rounded.given_up);
+                }
                 count += newton(&mut exact, &mut matrix, PLAIN).iterations;
             }
             taken += count;
             steps = steps.saturating_sub(count);
-            let is_solved = |i: usize| exact.mismatch[i] <= SOLVED && exact.has_run();
+            let is_solved = |i: usize| exact.knots[i].mismatch <= SOLVED && exact.has_run;
             match worst {
                 Some(worst) if !is_last && !exact.worst().is_some_and(is_solved) => {
                     if attempt + 1 >= SHIFTS.len() {
@@ -98,10 +99,11 @@ impl<M: CurvatureMap> Continuity<M> {
     /// The tangents found from those of another map for the same run, or from circles.
     pub fn tangents_from(&self, run: &Run, start: Option<&[ChordAngles]>) -> Tangents {
         let mut system = TangentSystem::new(&self.map, self.end, run);
-        if let Some(start) = start {
-            system.start_from(start);
-        }
         let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
+        match start {
+            Some(start) => system.start_from(start),
+            None => system.start_from_linear(&mut matrix),
+        }
         let outcome = newton(&mut system, &mut matrix, PLAIN);
         system.finish(outcome.iterations)
     }
@@ -149,26 +151,50 @@ impl Nature {
     }
 }
 
+/// A knot of the system.
+#[derive(Clone, Copy, Debug)]
+struct SystemKnot {
+    turn: f64,
+    /// √(chord after / chord before), 1 at an end, and its reciprocal: by these, curvatures before and after for
+    /// unit chord become curvatures times √(product of the two chords).
+    scales: [f64; 2],
+    equation: Equation,
+    /// `theta0` of the segment that leaves the knot; at the end of an open run, `theta1` of the one that
+    /// arrives.
+    tangent: f64,
+    /// The equation at the state that was evaluated last.
+    row: Row,
+    /// How far it is from being met.
+    mismatch: f64,
+    /// Whether it is no longer asked for; the knot keeps its tangent.
+    given_up: bool,
+}
+
+/// A segment of the system.
+#[derive(Clone, Copy, Debug)]
+struct SystemSegment {
+    context: SegmentContext,
+    /// The angles that the response is for; not numbers before there is one.
+    answered: ChordAngles,
+    response: EndCurvatures,
+}
+
+impl SystemSegment {
+    fn new(context: SegmentContext) -> Self {
+        let answered = ChordAngles::new(f64::NAN, f64::NAN);
+        SystemSegment { context, answered, response: EndCurvatures::ZERO }
+    }
+}
+
 /// The tangents of a run and the equations for them.
 struct TangentSystem<'a> {
     map: &'a dyn CurvatureMap,
     nature: Nature,
-    contexts: Vec<SegmentContext>,
-    /// The roots of the chords.
-    roots: Vec<f64>,
-    turns: Vec<f64>,
-    equations: Vec<Equation>,
-    /// `theta0` of the segment that leaves each knot; at the end of an open run, `theta1` of the
-    /// one that arrives.
-    tangents: Vec<f64>,
     closed: bool,
-    responses: Vec<EndCurvatures>,
-    /// The angles that the responses are for.
-    answered: Vec<ChordAngles>,
-    mismatch: Vec<f64>,
-    rows: Vec<Row>,
-    /// Knots whose equation is no longer asked for; they keep their tangents.
-    given_up: Vec<bool>,
+    knots: Vec<SystemKnot>,
+    segments: Vec<SystemSegment>,
+    /// Whether the equations have been evaluated.
+    has_run: bool,
     adapted: Vec<Adaptation>,
 }
 
@@ -178,11 +204,11 @@ impl<'a> TangentSystem<'a> {
         let segments = run.segment_count();
         let mut adapted = Vec::new();
         let last = n - 1;
-        let equations: Vec<Equation> = (0..n)
+        let knots = (0..n)
             .map(|i| {
                 let knot = &run.knots[i];
                 let is_end = !run.closed && (i == 0 || i == last);
-                match (is_end, knot.tangent, knot.curvature) {
+                let equation = match (is_end, knot.tangent, knot.curvature) {
                     (true, Some(tangent), given) => {
                         if given.is_some() {
                             adapted.push(ignored_curvature(i));
@@ -204,28 +230,43 @@ impl<'a> TangentSystem<'a> {
                         }
                         Equation::Continuous
                     }
+                };
+                SystemKnot {
+                    turn: knot.turn,
+                    scales: [1.0; 2],
+                    equation,
+                    tangent: 0.0,
+                    row: Row::UNASKED,
+                    mismatch: 0.0,
+                    given_up: false,
                 }
             })
             .collect();
-        let contexts: Vec<SegmentContext> = (0..segments).map(|i| context(run, i)).collect();
         let mut system = TangentSystem {
             map,
             nature: Nature::of(map),
-            roots: contexts.iter().map(|context| context.chord.sqrt()).collect(),
-            contexts,
-            turns: run.knots.iter().map(|knot| knot.turn).collect(),
-            equations,
-            tangents: vec![0.0; n],
             closed: run.closed,
-            responses: Vec::with_capacity(segments),
-            answered: Vec::with_capacity(segments),
-            mismatch: vec![0.0; n],
-            rows: vec![Row::UNASKED; n],
-            given_up: vec![false; n],
+            knots,
+            segments: (0..segments).map(|i| SystemSegment::new(context(run, i))).collect(),
+            has_run: false,
             adapted,
         };
+        system.scale();
         system.start_from_circles(run);
         system
+    }
+
+    /// Fills in the knots' scales.
+    fn scale(&mut self) {
+        let chord = |segment: &SystemSegment| segment.context.chord;
+        let mut before = if self.closed { self.segments.last().map(chord) } else { None };
+        for (i, knot) in self.knots.iter_mut().enumerate() {
+            let after = self.segments.get(i).map(chord);
+            if let (Some(before), Some(after)) = (before, after) {
+                knot.scales = [(after / before).sqrt(), (before / after).sqrt()];
+            }
+            before = after;
+        }
     }
 
     /// The tangents of the circle spline (thesis 4.10), arcs at the ends.
@@ -235,20 +276,19 @@ impl<'a> TangentSystem<'a> {
         for i in (0..n).filter(|&i| interior(i)) {
             let (before, after) = ((i + n - 1) % n, (i + 1) % n);
             let (a, b, c) = (run.knots[before].point, run.knots[i].point, run.knots[after].point);
-            self.tangents[i] = turning(along_circle(a, b, c), run.chord(i));
+            self.knots[i].tangent = turning(along_circle(a, b, c), run.chord(i));
         }
         if !run.closed {
-            self.tangents[0] = if n > 2 { self.turns[1] - self.tangents[1] } else { 0.0 };
-            self.tangents[n - 1] = if n > 2 { self.tangents[n - 2] } else { 0.0 };
+            self.knots[0].tangent =
+                if n > 2 { self.knots[1].turn - self.knots[1].tangent } else { 0.0 };
+            self.knots[n - 1].tangent = if n > 2 { self.knots[n - 2].tangent } else { 0.0 };
             for i in [0, n - 1] {
-                if let Equation::Direction(angle) = self.equations[i] {
-                    self.tangents[i] = angle;
+                if let Equation::Direction(angle) = self.knots[i].equation {
+                    self.knots[i].tangent = angle;
                 }
             }
         }
-        for i in 0..n {
-            self.keep_in_range(i);
-        }
+        self.keep_in_range();
     }
 
     /// The same with rounded numbers, in units of the longest chord.
@@ -259,36 +299,34 @@ impl<'a> TangentSystem<'a> {
             let unit = number.abs().log2().floor().exp2() * FINENESS;
             if unit > 0.0 && unit.is_finite() { (number / unit).round() * unit } else { number }
         };
-        let longest = self.contexts.iter().map(|context| context.chord).fold(0.0, f64::max);
+        let chords = self.segments.iter().map(|segment| segment.context.chord);
+        let longest = chords.fold(0.0, f64::max);
+        let segment = |segment: &SystemSegment| {
+            let chord = floating(segment.context.chord / longest);
+            SystemSegment::new(SegmentContext { chord, ..segment.context })
+        };
+        let knot = |knot: &SystemKnot| SystemKnot {
+            turn: fixed(knot.turn),
+            tangent: fixed(knot.tangent),
+            equation: match knot.equation {
+                Equation::Direction(angle) => Equation::Direction(fixed(angle)),
+                Equation::Curvature(curvature) => {
+                    Equation::Curvature(floating(curvature * longest))
+                }
+                equation @ (Equation::Continuous | Equation::End(_)) => equation,
+            },
+            ..*knot
+        };
         let mut rounded = TangentSystem {
             map: self.map,
             nature: self.nature,
-            contexts: self.contexts.clone(),
-            roots: Vec::with_capacity(self.contexts.len()),
-            turns: self.turns.clone(),
-            equations: self.equations.clone(),
-            tangents: self.tangents.clone(),
             closed: self.closed,
-            responses: Vec::with_capacity(self.contexts.len()),
-            answered: Vec::with_capacity(self.contexts.len()),
-            mismatch: self.mismatch.clone(),
-            rows: self.rows.clone(),
-            given_up: self.given_up.clone(),
+            knots: self.knots.iter().map(knot).collect(),
+            segments: self.segments.iter().map(segment).collect(),
+            has_run: false,
             adapted: Vec::new(),
         };
-        for context in &mut rounded.contexts {
-            context.chord = floating(context.chord / longest);
-            rounded.roots.push(context.chord.sqrt());
-        }
-        rounded.turns.iter_mut().for_each(|turn| *turn = fixed(*turn));
-        rounded.tangents.iter_mut().for_each(|tangent| *tangent = fixed(*tangent));
-        for equation in &mut rounded.equations {
-            match equation {
-                Equation::Direction(angle) => *angle = fixed(*angle),
-                Equation::Curvature(curvature) => *curvature = floating(*curvature * longest),
-                Equation::Continuous | Equation::End(_) => {}
-            }
-        }
+        rounded.scale();
         rounded
     }
 
@@ -305,9 +343,9 @@ impl<'a> TangentSystem<'a> {
                 return taken;
             }
             self.linearize(matrix);
-            for (i, diagonal) in matrix.diagonal.iter_mut().enumerate() {
-                if !self.given_up[i] {
-                    diagonal[0][0] += shift * self.mismatch[i];
+            for (row, knot) in matrix.rows.iter_mut().zip(&self.knots) {
+                if !knot.given_up {
+                    row.diagonal[0][0] += shift * knot.mismatch;
                 }
             }
             matrix.solve();
@@ -318,49 +356,76 @@ impl<'a> TangentSystem<'a> {
 
     /// The knot whose equation is furthest from being met, of those still asked for.
     fn worst(&self) -> Option<usize> {
-        let asked = (0..self.mismatch.len()).filter(|&i| !self.given_up[i]);
-        asked.max_by(|&i, &j| self.mismatch[i].total_cmp(&self.mismatch[j]))
-    }
-
-    /// Whether the equations have been evaluated.
-    fn has_run(&self) -> bool {
-        !self.responses.is_empty()
+        let asked = (0..self.knots.len()).filter(|&i| !self.knots[i].given_up);
+        asked.max_by(|&i, &j| self.knots[i].mismatch.total_cmp(&self.knots[j].mismatch))
     }
 
     /// Asks nothing more of the knots whose equation isn't nearly met; they keep the tangents they have.
     fn give_up_unmet(&mut self) {
-        for (given_up, mismatch) in self.given_up.iter_mut().zip(&self.mismatch) {
-            *given_up |= !(*mismatch <= CLOSE);
+        for knot in &mut self.knots {
+            knot.given_up |= !(knot.mismatch <= CLOSE);
         }
     }
 
     /// Asks nothing more of a knot: it has the tangent that it started with.
     fn give_up(&mut self, knot: usize, start: &[f64]) {
-        self.given_up[knot] = true;
-        self.tangents[knot] = start[knot];
+        self.knots[knot].given_up = true;
+        self.knots[knot].tangent = start[knot];
+    }
+
+    /// The tangents that solve the equations of the map linearised at the straight line, which are near
+    /// enough to spare one evaluation of four; not where the curve bends so much that they lead astray.
+    fn start_from_linear(&mut self, matrix: &mut BlockTridiagonal<1>) {
+        /// Radians that all tangents keep within of the chords. Chosen: up to here, no contour of thousands is
+        /// led to another curve, and one in a hundred is spared a search; at 2.2 rad some are led astray.
+        const LITTLE: f64 = 1.3;
+        if self.nature.is_linear || self.nature.order != 1.0 {
+            return;
+        }
+        let straight = self.map.curvatures(ChordAngles::default(), &SegmentContext::UNIT);
+        for i in 0..self.segments.len() {
+            let ChordAngles { theta0, theta1 } = self.angles(i);
+            let response = &mut self.segments[i].response;
+            *response = straight;
+            response.turn([theta0, theta1]);
+        }
+        for i in 0..self.knots.len() {
+            self.knots[i].row = self.row(i, true);
+        }
+        self.linearize(matrix);
+        matrix.solve();
+        let last = self.knots.len() - 1;
+        let bends_little = |(i, (knot, [step])): (usize, (&SystemKnot, &[f64; 1]))| {
+            let is_end = !self.closed && (i == 0 || i == last);
+            let own = knot.tangent + step;
+            own.abs() <= LITTLE && (is_end || (knot.turn - own).abs() <= LITTLE)
+        };
+        if self.knots.iter().zip(&matrix.right).enumerate().all(bends_little) {
+            for (knot, [step]) in self.knots.iter_mut().zip(&matrix.right) {
+                knot.tangent += step;
+            }
+            self.keep_in_range();
+        }
     }
 
     /// Tangents that are known roughly.
     fn start_from(&mut self, known: &[ChordAngles]) {
-        let n = self.tangents.len();
-        for (tangent, angles) in self.tangents.iter_mut().zip(known) {
-            *tangent = angles.theta0;
+        let n = self.knots.len();
+        for (knot, angles) in self.knots.iter_mut().zip(known) {
+            knot.tangent = angles.theta0;
         }
         if let (false, Some(last)) = (self.closed, known.last()) {
-            self.tangents[n - 1] = last.theta1;
+            self.knots[n - 1].tangent = last.theta1;
         }
-        for i in 0..n {
-            self.keep_in_range(i);
-        }
+        self.keep_in_range();
     }
 
     /// The end tangents of a segment.
     fn angles(&self, segment: usize) -> ChordAngles {
-        let end = if segment + 1 == self.tangents.len() { 0 } else { segment + 1 };
-        let is_last = !self.closed && segment + 1 == self.contexts.len();
-        let theta1 =
-            if is_last { self.tangents[end] } else { self.turns[end] - self.tangents[end] };
-        ChordAngles::new(self.tangents[segment], theta1)
+        let end = &self.knots[if segment + 1 == self.knots.len() { 0 } else { segment + 1 }];
+        let is_last = !self.closed && segment + 1 == self.segments.len();
+        let theta1 = if is_last { end.tangent } else { end.turn - end.tangent };
+        ChordAngles::new(self.knots[segment].tangent, theta1)
     }
 
     /// The end curvatures of every segment. Where angles have hardly changed since they were last computed,
@@ -369,37 +434,36 @@ impl<'a> TangentSystem<'a> {
         /// Radians over which smooth maps differ from linear ones by less than rounding.
         const NEAR: f64 = 1e-10;
         let most = if self.nature.order == 1.0 { NEAR } else { 0.0 };
-        for segment in 0..self.contexts.len() {
-            let angles = self.angles(segment);
-            if let Some(known) = self.answered.get_mut(segment) {
-                let change = [angles.theta0 - known.theta0, angles.theta1 - known.theta1];
-                let response = &mut self.responses[segment];
-                if change[0].abs().max(change[1].abs()) <= most {
-                    response.turn(change);
-                } else {
-                    *response = self.map.curvatures(angles, &self.contexts[segment]);
-                }
-                *known = angles;
+        for index in 0..self.segments.len() {
+            let angles = self.angles(index);
+            let segment = &mut self.segments[index];
+            let known = segment.answered;
+            let change = [angles.theta0 - known.theta0, angles.theta1 - known.theta1];
+            if change.iter().all(|change| change.abs() <= most) {
+                segment.response.turn(change);
             } else {
-                self.responses.push(self.map.curvatures(angles, &self.contexts[segment]));
-                self.answered.push(angles);
+                segment.response = self.map.curvatures(angles, &segment.context);
             }
+            segment.answered = angles;
         }
+        self.has_run = true;
     }
 
-    /// Brings both angles at a knot within the family's limit.
-    fn keep_in_range(&mut self, i: usize) {
+    /// Brings both angles at every knot within the family's limit.
+    fn keep_in_range(&mut self) {
         let limit = self.nature.limit;
-        let n = self.tangents.len();
-        let (mut low, mut high) = (-limit, limit);
-        if self.closed || (i > 0 && i + 1 < n) {
-            low = low.max(self.turns[i] - limit);
-            high = high.min(self.turns[i] + limit);
+        if limit == f64::INFINITY {
+            return;
         }
-        if low < high {
-            self.tangents[i] = self.tangents[i].clamp(low, high);
-        } else {
-            self.tangents[i] = (low + high) / 2.0;
+        let n = self.knots.len();
+        for (i, knot) in self.knots.iter_mut().enumerate() {
+            let (mut low, mut high) = (-limit, limit);
+            if self.closed || (i > 0 && i + 1 < n) {
+                low = low.max(knot.turn - limit);
+                high = high.min(knot.turn + limit);
+            }
+            knot.tangent =
+                if low < high { knot.tangent.clamp(low, high) } else { (low + high) / 2.0 };
         }
     }
 }
@@ -422,55 +486,39 @@ impl Row {
 impl TangentSystem<'_> {
     /// The equation of knot `i`. Its unknown is `theta0` of the segment after it, which is the turn
     /// less `theta1` of the one before; at the end of an open run, `theta1` itself.
-    fn row(&self, i: usize) -> Row {
-        let n = self.tangents.len();
+    fn row(&self, i: usize, is_linear: bool) -> Row {
+        let n = self.knots.len();
         let left = if i > 0 { Some(i - 1) } else { self.closed.then_some(n - 1) };
         let right = if i + 1 < n || self.closed { Some(i) } else { None };
         // How theta1 of the segment after responds to the unknown of the next knot.
         let next = if !self.closed && i + 2 == n { 1.0 } else { -1.0 };
-        match (self.equations[i], left, right) {
-            (Equation::Continuous, Some(l), Some(r)) if self.nature.is_linear => {
-                // κ/c on both sides, over the sum's response to the knot's own angle, so that the
-                // equation is in radians; the chords first over the longer one, which keeps their
-                // products in the range of numbers.
-                let (cl, cr) = (self.contexts[l].chord, self.contexts[r].chord);
-                let (left, right) = (&self.responses[l], &self.responses[r]);
-                let (wl, wr) = (cr / cl.max(cr), cl / cl.max(cr));
-                let own = left.by_angle[1][1].num * wl + right.by_angle[0][0].num * wr;
-                let (wl, wr) = (wl / own, wr / own);
-                Row {
-                    value: right.value[0].num * wr - left.value[1].num * wl,
-                    lower: -left.by_angle[1][0].num * wl,
-                    diagonal: 1.0,
-                    upper: right.by_angle[0][1].num * wr * next,
+        match (&self.knots[i].equation, left, right) {
+            (Equation::Continuous, Some(l), Some(r)) => {
+                let (before, after) = (&self.segments[l], &self.segments[r]);
+                if is_linear {
+                    linear_continuity(before, after, next)
+                } else {
+                    let (before, after) = (&before.response, &after.response);
+                    self.continuity(before, after, self.knots[i].scales, next)
                 }
             }
-            (Equation::Continuous, Some(l), Some(r)) => {
-                let (cl, cr) = (self.roots[l], self.roots[r]);
-                let v = Turned::new(self.responses[l].value[1], cl, cr);
-                let w = Turned::new(self.responses[r].value[0], cr, cl);
-                let [l0, l1] = v.angles_by(self.responses[l].by_angle[1], cl, cr);
-                let [r0, r1] = w.angles_by(self.responses[r].by_angle[0], cr, cl);
-                let (value, [dv, dw]) = v.straightened_angle_to(&w, self.order_at(l, r));
-                Row { value, lower: -l0 * dv, diagonal: l1 * dv + r0 * dw, upper: r1 * dw * next }
-            }
             (Equation::Direction(angle), _, _) => {
-                Row { value: self.tangents[i] - angle, ..Row::UNASKED }
+                Row { value: self.knots[i].tangent - angle, ..Row::UNASKED }
             }
             (Equation::End(end), _, Some(r)) => {
-                let (value, [by0, by1]) = self.natural_end(end, r, 0);
+                let (value, [by0, by1]) = self.natural_end(*end, r, 0);
                 Row { value, diagonal: by0, upper: by1 * next, lower: 0.0 }
             }
             (Equation::End(end), Some(l), None) => {
-                let (value, [by0, by1]) = self.natural_end(end, l, 1);
+                let (value, [by0, by1]) = self.natural_end(*end, l, 1);
                 Row { value, diagonal: by1, lower: by0, upper: 0.0 }
             }
             (Equation::Curvature(curvature), _, Some(r)) => {
-                let (value, [by0, by1]) = self.end_curvature(r, 0, curvature);
+                let (value, [by0, by1]) = self.end_curvature(r, 0, *curvature);
                 Row { value, diagonal: by0, upper: by1 * next, lower: 0.0 }
             }
             (Equation::Curvature(curvature), Some(l), None) => {
-                let (value, [by0, by1]) = self.end_curvature(l, 1, curvature);
+                let (value, [by0, by1]) = self.end_curvature(l, 1, *curvature);
                 Row { value, diagonal: by1, lower: by0, upper: 0.0 }
             }
             // A knot without a segment, or continuity at an end: nothing to ask.
@@ -478,18 +526,33 @@ impl TangentSystem<'_> {
         }
     }
 
+    /// The equation that curvature is continuous where two segments meet.
+    fn continuity(
+        &self,
+        before: &EndCurvatures,
+        after: &EndCurvatures,
+        scales: [f64; 2],
+        next: f64,
+    ) -> Row {
+        let v = Turned::new(before.value[1], scales[0]);
+        let w = Turned::new(after.value[0], scales[1]);
+        let [l0, l1] = v.angles_by(before.by_angle[1], scales[0]);
+        let [r0, r1] = w.angles_by(after.by_angle[0], scales[1]);
+        let (value, [dv, dw]) = v.straightened_angle_to(&w, self.order_at(before, after));
+        Row { value, lower: -l0 * dv, diagonal: l1 * dv + r0 * dw, upper: r1 * dw * next }
+    }
+
     /// The order of the roots to compare where these segments meet. Roots of an order above 1 would be
     /// steep where a whole segment is nearly straight, so that they are for knots that are near an
     /// inflection of both segments.
-    fn order_at(&self, before: usize, after: usize) -> f64 {
+    fn order_at(&self, before: &EndCurvatures, after: &EndCurvatures) -> f64 {
         /// An end's curvature over that of the other end, below which it is near an inflection.
         const NEAR: f64 = 0.3;
         let order = self.nature.order;
-        let is_near = |segment: usize, end: usize| {
-            let value = &self.responses[segment].value;
-            value[end].num.abs() < NEAR * value[1 - end].num.abs()
+        let is_near = |response: &EndCurvatures, end: usize| {
+            response.value[end].num.abs() < NEAR * response.value[1 - end].num.abs()
         };
-        let is_useful = order < 1.0 || (is_near(before, 1) && is_near(after, 0));
+        let is_useful = order <= 1.0 || (is_near(before, 1) && is_near(after, 0));
         if is_useful { order } else { 1.0 }
     }
 
@@ -508,7 +571,7 @@ impl TangentSystem<'_> {
             NaturalEnd::Curl(curl) => {
                 /// METAFONT's bound.
                 const LARGEST_RATIO: f64 = 4.0;
-                let response = &self.responses[segment];
+                let response = &self.segments[segment].response;
                 // Between equal weights for small and large curls.
                 let (here, there) = (1.0 / (1.0 + curl), curl / (1.0 + curl));
                 let by = |angle: usize| {
@@ -524,15 +587,16 @@ impl TangentSystem<'_> {
 
     /// The tangents reached.
     fn finish(mut self, iterations: usize) -> Tangents {
-        let ends = (0..self.contexts.len())
-            .map(|i| {
-                let curvatures = self.responses.get(i).map(|response| response.value);
+        let ends = (self.segments.iter().enumerate())
+            .map(|(i, segment)| {
+                let curvatures = self.has_run.then_some(segment.response.value);
                 let (angles, curvatures) = self.forwards(self.angles(i), curvatures);
-                SegmentEnds { angles, curvatures, context: self.contexts[i] }
+                SegmentEnds { angles, curvatures, context: segment.context }
             })
             .collect();
+        let mismatch = self.knots.iter().map(|knot| knot.mismatch).collect();
         let adapted = std::mem::take(&mut self.adapted);
-        Tangents { ends, mismatch: self.mismatch, adapted, iterations, stage: Stage::Plain }
+        Tangents { ends, mismatch, adapted, iterations, stage: Stage::Plain }
     }
 
     /// The tangents along which a segment of a periodic map is travelled: what shapes without reversals
@@ -560,10 +624,27 @@ impl TangentSystem<'_> {
     /// How far the curvature at the start (0) or end (1) of a segment is from the one wanted, in the
     /// run's units, and how that responds to the segment's angles.
     fn end_curvature(&self, segment: usize, end: usize, wanted: f64) -> (f64, [f64; 2]) {
-        let response = &self.responses[segment];
-        let own = Turned::new(response.value[end], 1.0, 1.0);
-        let wanted = Turned { num: wanted * self.contexts[segment].chord, den: 1.0 };
-        (wanted.angle_to(&own), own.angles_by(response.by_angle[end], 1.0, 1.0))
+        let SystemSegment { context, response, .. } = &self.segments[segment];
+        let own = Turned::new(response.value[end], 1.0);
+        let wanted = Turned { num: wanted * context.chord, den: 1.0 };
+        (wanted.angle_to(&own), own.angles_by(response.by_angle[end], 1.0))
+    }
+}
+
+/// The equation that curvature is continuous where two segments of a linear map meet: κ/c on both sides,
+/// over the sum's response to the knot's own angle, so that the equation is in radians; the chords first over
+/// the longer one, which keeps their products in the range of numbers.
+fn linear_continuity(before: &SystemSegment, after: &SystemSegment, next: f64) -> Row {
+    let (cl, cr) = (before.context.chord, after.context.chord);
+    let (left, right) = (&before.response, &after.response);
+    let (wl, wr) = (cr / cl.max(cr), cl / cl.max(cr));
+    let own = left.by_angle[1][1].num * wl + right.by_angle[0][0].num * wr;
+    let (wl, wr) = (wl / own, wr / own);
+    Row {
+        value: right.value[0].num * wr - left.value[1].num * wl,
+        lower: -left.by_angle[1][0].num * wl,
+        diagonal: 1.0,
+        upper: right.by_angle[0][1].num * wr * next,
     }
 }
 
@@ -571,23 +652,21 @@ impl System<1> for TangentSystem<'_> {
     fn residual(&mut self) -> f64 {
         self.evaluate();
         let mut residual = 0.0f64;
-        for i in 0..self.rows.len() {
-            let mut row = self.row(i);
-            self.mismatch[i] = row.value.abs();
-            if self.given_up[i] {
-                row = Row::UNASKED;
+        for i in 0..self.knots.len() {
+            let row = self.row(i, self.nature.is_linear);
+            let knot = &mut self.knots[i];
+            knot.mismatch = row.value.abs();
+            knot.row = if knot.given_up { Row::UNASKED } else { row };
+            if knot.row.value.is_nan() || knot.row.value.abs() > residual {
+                residual = knot.row.value.abs();
             }
-            self.rows[i] = row;
-            residual = if row.value.is_nan() { f64::NAN } else { residual.max(row.value.abs()) };
         }
         residual
     }
 
     fn linearize(&self, matrix: &mut BlockTridiagonal<1>) {
-        for (i, row) in self.rows.iter().enumerate() {
-            matrix.lower[i] = [[row.lower]];
-            matrix.diagonal[i] = [[row.diagonal]];
-            matrix.upper[i] = [[row.upper]];
+        for (i, SystemKnot { row, .. }) in self.knots.iter().enumerate() {
+            matrix.rows[i] = BlockRow::new([[row.lower]], [[row.diagonal]], [[row.upper]]);
             matrix.right[i] = [-row.value];
         }
     }
@@ -597,13 +676,13 @@ impl System<1> for TangentSystem<'_> {
         const CLAMP: f64 = 0.7;
         let most = if self.nature.is_linear { f64::INFINITY } else { CLAMP };
         let mut size = 0.0f64;
-        for (i, [step]) in step.iter().enumerate() {
+        for (knot, [step]) in self.knots.iter_mut().zip(step) {
             if step.is_finite() {
-                self.tangents[i] += step.clamp(-most, most);
+                knot.tangent += step.clamp(-most, most);
             }
             size = size.max(step.abs());
-            self.keep_in_range(i);
         }
+        self.keep_in_range();
         size
     }
 }
@@ -616,8 +695,8 @@ struct Turned {
 }
 
 impl Turned {
-    fn new(end: EndCurvature, own: f64, other: f64) -> Self {
-        Turned { num: end.num * other, den: end.den * own }
+    fn new(end: EndCurvature, scale: f64) -> Self {
+        Turned { num: end.num * scale, den: end.den }
     }
 
     /// The angle to turn by to come to the other vector: zero where curvatures agree, whatever
@@ -657,13 +736,12 @@ impl Turned {
     }
 
     /// How the vector's angle changes when the curvature it stands for changes by either of these.
-    fn angles_by(&self, [first, second]: [EndCurvature; 2], own: f64, other: f64) -> [f64; 2] {
+    fn angles_by(&self, changes: [EndCurvature; 2], scale: f64) -> [f64; 2] {
         let squared = self.den * self.den + self.num * self.num;
         let reciprocal = 1.0 / squared.max(f64::MIN_POSITIVE);
-        let by = |change: EndCurvature| {
-            let Turned { num, den } = Turned::new(change, own, other);
+        changes.map(|change| {
+            let Turned { num, den } = Turned::new(change, scale);
             (self.den * num - self.num * den) * reciprocal
-        };
-        [by(first), by(second)]
+        })
     }
 }

@@ -32,6 +32,12 @@ pub struct EndCurvatures {
 }
 
 impl EndCurvatures {
+    /// Of a straight line that nothing bends.
+    pub(crate) const ZERO: EndCurvatures = EndCurvatures {
+        value: [EndCurvature::finite(0.0); 2],
+        by_angle: [[EndCurvature { num: 0.0, den: 0.0 }; 2]; 2],
+    };
+
     /// What they become, to first order, when the tangents turn by so much.
     pub(crate) fn turn(&mut self, change: [f64; 2]) {
         for (value, by_angle) in self.value.iter_mut().zip(&self.by_angle) {

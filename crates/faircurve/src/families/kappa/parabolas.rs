@@ -6,7 +6,7 @@ use std::sync::Arc;
 use kurbo::{PathSeg, Point, QuadBez, Vec2};
 
 use crate::frame::{ChordAngles, EndCurvature, direction, wrap_angle};
-use crate::numeric::block_tridiagonal::BlockTridiagonal;
+use crate::numeric::block_tridiagonal::{BlockRow, BlockTridiagonal};
 use crate::numeric::order::sort_by;
 use crate::numeric::roots::horner;
 use crate::plan::Run;
@@ -244,9 +244,7 @@ impl Parabolas {
                 upper = t * t * after;
                 diagonal = 1.0 - lower - upper;
             }
-            matrix.lower[i] = scaled(lower);
-            matrix.diagonal[i] = scaled(diagonal);
-            matrix.upper[i] = scaled(upper);
+            matrix.rows[i] = BlockRow::new(scaled(lower), scaled(diagonal), scaled(upper));
             if let (true, Some(tangent)) = (is_end(run, i), run.knots[i].tangent) {
                 // On the tangent, and the vertex at the knot: a = λ/(1 + λ) of what the next control
                 // point is along it.
@@ -260,9 +258,9 @@ impl Parabolas {
                 let rest = knot - along * (share * along.dot(knot));
                 matrix.right[i] = [rest.x, rest.y];
                 if i == 0 {
-                    matrix.upper[i] = onto;
+                    matrix.rows[i].upper = onto;
                 } else {
-                    matrix.lower[i] = onto;
+                    matrix.rows[i].lower = onto;
                 }
             }
         }
