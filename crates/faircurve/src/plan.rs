@@ -583,20 +583,21 @@ fn check(contour: &Contour) -> Result<(), InputError> {
     if contour.knots.is_empty() {
         return Err(InputError::Empty);
     }
+    const NUMBERS: [&str; 7] =
+        ["x", "y", "curvature_in", "curvature_out", "tension_in", "tension_out", "curl"];
     for (index, knot) in contour.knots.iter().enumerate() {
         let numbers = [
-            ("x", Some(knot.point.x)),
-            ("y", Some(knot.point.y)),
-            ("curvature_in", knot.curvature_in),
-            ("curvature_out", knot.curvature_out),
-            ("tension_in", knot.tension_in),
-            ("tension_out", knot.tension_out),
-            ("curl", knot.curl),
+            Some(knot.point.x),
+            Some(knot.point.y),
+            knot.curvature_in,
+            knot.curvature_out,
+            knot.tension_in,
+            knot.tension_out,
+            knot.curl,
         ];
-        if let Some((what, _)) =
-            numbers.iter().find(|(_, value)| value.is_some_and(|value| !value.is_finite()))
-        {
-            return Err(InputError::NotFinite { knot: index, what });
+        let is_bad = |number: &Option<f64>| number.is_some_and(|number| !number.is_finite());
+        if let Some(which) = numbers.iter().position(is_bad) {
+            return Err(InputError::NotFinite { knot: index, what: NUMBERS[which] });
         }
         if knot.point.x.abs().max(knot.point.y.abs()) > LARGEST_COORDINATE {
             return Err(InputError::TooLarge { knot: index });
@@ -618,13 +619,13 @@ fn check(contour: &Contour) -> Result<(), InputError> {
 /// Each knot's join, with the spline's own where it lacks the one asked.
 fn resolve_joins(contour: &Contour, spline: &dyn Spline) -> (Vec<ResolvedJoin>, Vec<Adaptation>) {
     let mut adapted = Vec::new();
-    let last = contour.knots.len() - 1;
+    let (last, own) = (contour.knots.len() - 1, spline.default_join());
     let joins = contour
         .knots
         .iter()
         .enumerate()
         .map(|(index, knot)| {
-            let asked = knot.join.unwrap_or(spline.default_join());
+            let asked = knot.join.unwrap_or(own);
             let got = spline.adapt(asked);
             let is_end = !contour.closed && (index == 0 || index == last);
             if got != asked && !is_end {
@@ -633,7 +634,7 @@ fn resolve_joins(contour: &Contour, spline: &dyn Spline) -> (Vec<ResolvedJoin>, 
             }
             // A knot joins as splines of that kind do, or is cut out of them by what is asked: a
             // corner asked for is one even where the spline's own joins are no better.
-            let is_own = knot.join != Some(Join::Corner) && got == spline.default_join();
+            let is_own = knot.join != Some(Join::Corner) && got == own;
             let is_inner = is_own || !matches!(got, Join::Corner | Join::G1);
             ResolvedJoin { join: got, is_inner }
         })
@@ -697,9 +698,14 @@ fn merge_coincident(contour: &Contour, joins: &[ResolvedJoin], frame: &NormalFra
     let knots = &contour.knots;
     let count = knots.len();
     let points: Vec<Point> = knots.iter().map(|knot| frame.point(knot.point)).collect();
+    let largest = points.iter().fold(0.0, |largest: f64, p| largest.max(p.x.abs()).max(p.y.abs()));
+    let near = (COINCIDENT * largest).max(INVISIBLE);
     let coincide = |i: usize, j: usize| {
-        let rounding = COINCIDENT * largest_coordinate(points[i], points[j]);
-        (points[i] - points[j]).hypot() <= rounding.max(INVISIBLE)
+        let apart = points[i] - points[j];
+        apart.x.abs() <= near && apart.y.abs() <= near && {
+            let rounding = COINCIDENT * largest_coordinate(points[i], points[j]);
+            apart.hypot() <= rounding.max(INVISIBLE)
+        }
     };
     let angle = |tangent: Option<Vec2>| tangent.map(direction);
     let mut nodes: Vec<Node> = Vec::with_capacity(count);
@@ -709,7 +715,7 @@ fn merge_coincident(contour: &Contour, joins: &[ResolvedJoin], frame: &NormalFra
         };
         let (tangent_out, curvature_out, tension_out) = last_of(knot);
         match nodes.last_mut() {
-            Some(node) if coincide(i - 1, i) || coincide(node.first, i) => {
+            Some(node) if coincide(node.last, i) || coincide(node.first, i) => {
                 node.merge_join(joins[i]);
                 node.last = i;
                 (node.tangent_out, node.curvature_out) = (tangent_out, curvature_out);
@@ -920,9 +926,10 @@ fn from<T>(list: &[T], start: usize) -> impl Iterator<Item = &T> {
 /// repeats, in linear time: two candidates race, and the loser skips all that it has compared.
 fn least_rotation<T: Ord>(list: &[T]) -> (usize, usize) {
     let n = list.len();
+    let at = |place: usize| &list[if place < n { place } else { place - n }];
     let (mut i, mut j, mut same) = (0, 1, 0);
     while i < n && j < n && same < n {
-        match list[(i + same) % n].cmp(&list[(j + same) % n]) {
+        match at(i + same).cmp(at(j + same)) {
             Ordering::Equal => {
                 same += 1;
                 continue;
