@@ -106,7 +106,7 @@ pub fn wrap_angle(angle: f64) -> f64 {
 
 /// The direction of a vector in radians, in (−π, π].
 pub fn direction(vector: Vec2) -> f64 {
-    one_half_turn(vector.y.atan2(vector.x))
+    one_half_turn(argument(Complex64::new(vector.x, vector.y)))
 }
 
 /// −π from a negative zero is the same direction as π; one of them must be the answer.

@@ -15,7 +15,7 @@ use crate::curve::Curve;
 use crate::frame::{circle_tangent, direction, turning, wrap_angle};
 use crate::numeric::order::sort_by;
 use crate::outline::{Contour, Join, Knot};
-use crate::segment::Segment;
+use crate::segment::{CurveEnd, Segment};
 use crate::spline::{
     Adaptation, Place, Relaxation, RunSolution, Solution, SolveReport, SolvedKnot, Spline,
 };
@@ -545,14 +545,16 @@ impl Plan {
 
     fn solved_knots(&self, segments: &[Segment], report: &SolveReport) -> Vec<SolvedKnot> {
         let count = self.points.len();
+        let ends: Vec<[CurveEnd; 2]> = segments.iter().map(Segment::ends).collect();
         let mut knots = Vec::with_capacity(count);
         for node in &self.nodes {
-            let arriving = match (node.first, self.closed) {
+            let before = match (node.first, self.closed) {
                 (0, false) => None,
-                (0, true) => segments.last(),
-                (first, _) => segments.get(first - 1),
+                (0, true) => ends.last(),
+                (first, _) => ends.get(first - 1),
             };
-            let leaving = segments.get(node.last);
+            let arriving = before.map(|[_, end]| end);
+            let leaving = ends.get(node.last).map(|[start, _]| start);
             let place = Place::Knot(node.first);
             let from = report.relaxed.partition_point(|r| r.place < place);
             let here = report.relaxed[from..].iter().take_while(|r| r.place == place);
@@ -561,10 +563,10 @@ impl Plan {
             let solved = SolvedKnot {
                 point: self.points[node.first],
                 join,
-                direction_in: arriving.map(|s| wrap_angle(s.direction(s.length()))),
-                direction_out: leaving.map(|s| wrap_angle(s.direction(0.0))),
-                curvature_in: arriving.map(|s| s.curvature(s.length())),
-                curvature_out: leaving.map(|s| s.curvature(0.0)),
+                direction_in: arriving.map(|end| wrap_angle(end.direction)),
+                direction_out: leaving.map(|end| wrap_angle(end.direction)),
+                curvature_in: arriving.map(|end| end.curvature),
+                curvature_out: leaving.map(|end| end.curvature),
             };
             let members = (node.last + count - node.first) % count;
             for i in 0..=members {

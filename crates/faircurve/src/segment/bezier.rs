@@ -12,8 +12,6 @@ use crate::numeric::trig::cis;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UnitBezier {
     exact: PathSeg,
-    /// The same as a cubic, for evaluating.
-    cubic: [Complex64; 4],
     /// Its velocity, as a quadratic Bézier: short arms are known to their own rounding here.
     velocity: [Complex64; 3],
 }
@@ -23,7 +21,7 @@ impl UnitBezier {
     pub fn new(bezier: PathSeg) -> Self {
         let CubicBez { p0, p1, p2, p3 } = bezier.to_cubic();
         let velocity = [p1 - p0, p2 - p1, p3 - p2].map(|leg| Complex64::new(leg.x, leg.y) * 3.0);
-        UnitBezier { exact: bezier, cubic: [p0, p1, p2, p3].map(complex), velocity }
+        UnitBezier { exact: bezier, velocity }
     }
 
     /// The cubic whose arms, along the end tangents, have these lengths; negative ones point
@@ -37,7 +35,7 @@ impl UnitBezier {
         let (p1, p2) = (point(first), point(1.0 - last));
         let cubic = CubicBez::new(Point::ORIGIN, p1, p2, Point::new(1.0, 0.0));
         let velocity = [first, 1.0 - first - last, last].map(|leg| leg * 3.0);
-        UnitBezier { velocity, ..UnitBezier::new(PathSeg::Cubic(cubic)) }
+        UnitBezier { exact: PathSeg::Cubic(cubic), velocity }
     }
 }
 
@@ -64,7 +62,8 @@ pub(super) fn point(z: Complex64) -> Point {
 
 impl ParametricCurve for UnitBezier {
     fn point(&self, u: f64) -> Complex64 {
-        let [p0, p1, p2, p3] = self.cubic;
+        let CubicBez { p0, p1, p2, p3 } = self.exact.to_cubic();
+        let [p0, p1, p2, p3] = [p0, p1, p2, p3].map(complex);
         let v = 1.0 - u;
         // Ends are exact: every other term is then 0.
         p0 * (v * v * v) + p1 * (3.0 * v * v * u) + p2 * (3.0 * v * u * u) + p3 * (u * u * u)

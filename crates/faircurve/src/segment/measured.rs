@@ -5,7 +5,7 @@ use std::fmt;
 use kurbo::PathSeg;
 use num_complex::Complex64;
 
-use super::UnitCurve;
+use super::{CurveEnd, UnitCurve};
 use crate::numeric::quadrature::{gauss_16, integrate};
 use crate::numeric::trig::argument;
 
@@ -36,10 +36,7 @@ pub trait ParametricCurve: fmt::Debug + Send + Sync {
 #[derive(Clone, Debug)]
 pub struct Measured<C> {
     curve: C,
-    /// Its directions where it starts and ends.
-    directions: [f64; 2],
-    /// Its curvatures there.
-    curvatures: [f64; 2],
+    ends: [CurveEnd; 2],
     length: f64,
     /// The panels after the first; mostly none.
     later: Vec<Panel>,
@@ -102,8 +99,11 @@ impl<C: ParametricCurve> Measured<C> {
     }
 
     fn with(curve: C, directions: [f64; 2], length: f64) -> Self {
-        let curvatures = [curvature(&curve, 0.0), curvature(&curve, 1.0)];
-        Measured { curve, directions, curvatures, length, later: Vec::new(), breaks: Vec::new() }
+        let end = |i: usize| {
+            CurveEnd { direction: directions[i], curvature: curvature(&curve, i as f64) }
+        };
+        let ends = [end(0), end(1)];
+        Measured { curve, ends, length, later: Vec::new(), breaks: Vec::new() }
     }
 
     fn arc(&self, from: f64, to: f64) -> f64 {
@@ -112,7 +112,7 @@ impl<C: ParametricCurve> Measured<C> {
 
     /// Appends the panel from `u` to `to`, of that length.
     fn push(&mut self, u: f64, to: f64, length: f64) {
-        let direction = &mut self.directions[1];
+        let direction = &mut self.ends[1].direction;
         if u > 0.0 {
             self.later.push(Panel { u, s: self.length, direction: *direction });
         }
@@ -157,7 +157,7 @@ impl<C: ParametricCurve> Measured<C> {
     /// The last panel of which `key` holds, as it does of those up to some place, and the one after it.
     fn panel_at(&self, key: impl Fn(&Panel) -> bool) -> (Panel, Option<&Panel>) {
         let after = self.later.partition_point(key);
-        let first = Panel { u: 0.0, s: 0.0, direction: self.directions[0] };
+        let first = Panel { u: 0.0, s: 0.0, direction: self.ends[0].direction };
         (after.checked_sub(1).map_or(first, |index| self.later[index]), self.later.get(after))
     }
 
@@ -289,9 +289,9 @@ impl<C: ParametricCurve> UnitCurve for Measured<C> {
 
     fn direction(&self, s: f64) -> f64 {
         if s <= 0.0 {
-            return self.directions[0];
+            return self.ends[0].direction;
         } else if s >= self.length {
-            return self.directions[1];
+            return self.ends[1].direction;
         }
         let (panel, _) = self.panel_at(|panel| panel.s <= s);
         let start = tangent(&self.curve, panel.u, true);
@@ -305,11 +305,15 @@ impl<C: ParametricCurve> UnitCurve for Measured<C> {
 
     fn curvature(&self, s: f64) -> f64 {
         if s <= 0.0 {
-            return self.curvatures[0];
+            return self.ends[0].curvature;
         } else if s >= self.length {
-            return self.curvatures[1];
+            return self.ends[1].curvature;
         }
         curvature(&self.curve, self.parameter(s))
+    }
+
+    fn ends(&self) -> [CurveEnd; 2] {
+        self.ends
     }
 
     fn breaks(&self) -> &[f64] {

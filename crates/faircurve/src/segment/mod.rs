@@ -22,7 +22,7 @@ use crate::numeric::trig::unit_vector;
 pub use bezier::UnitBezier;
 pub use measured::{Measured, ParametricCurve};
 pub use spiral::{PolynomialSpiral, SpiralChord};
-pub use unit_curve::UnitCurve;
+pub use unit_curve::{CurveEnd, UnitCurve};
 
 /// What shape a segment has. Grows with the families; match with a wildcard.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,6 +62,10 @@ impl PartialEq for UnitPiece {
 impl UnitPiece {
     fn length(&self) -> f64 {
         self.to - self.from
+    }
+
+    fn is_whole(&self) -> bool {
+        self.from == 0.0 && self.to == self.curve.length()
     }
 
     /// The curve's arc length for one of the piece's.
@@ -323,6 +327,36 @@ impl Segment {
                 let (member, s) = self.member(members, s);
                 member.direction(s)
             }
+        }
+    }
+
+    /// What holds at the start and at the end: [`direction`](Self::direction) and
+    /// [`curvature`](Self::curvature) there.
+    pub fn ends(&self) -> [CurveEnd; 2] {
+        match &self.shape {
+            Shape::Line => [CurveEnd { direction: self.heading, curvature: 0.0 }; 2],
+            Shape::Unit(piece) if piece.is_whole() => {
+                let [start, end] = piece.curve.ends();
+                let per_unit = 1.0 / piece.scale;
+                let place = |end: CurveEnd, turned: f64, sign: f64| CurveEnd {
+                    direction: self.heading + end.direction + turned,
+                    curvature: (sign * end.curvature * per_unit).clamp(f64::MIN, f64::MAX),
+                };
+                if piece.backwards {
+                    [place(end, PI, -1.0), place(start, PI, -1.0)]
+                } else {
+                    [place(start, 0.0, 1.0), place(end, 0.0, 1.0)]
+                }
+            }
+            Shape::Spiral(spiral) if self.length > 0.0 => [-0.5, 0.5].map(|local| CurveEnd {
+                direction: self.heading + angle(spiral.k, local),
+                curvature: (curvature_jet(spiral.k, local)[0] * (1.0 / self.length))
+                    .clamp(f64::MIN, f64::MAX),
+            }),
+            _ => [0.0, self.length].map(|s| CurveEnd {
+                direction: self.direction(s),
+                curvature: self.curvature(s),
+            }),
         }
     }
 

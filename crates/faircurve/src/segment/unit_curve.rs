@@ -7,6 +7,15 @@ use num_complex::Complex64;
 
 use crate::numeric::quadrature::integrate;
 
+/// What holds where a curve starts or ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurveEnd {
+    /// Direction of travel in radians, not wrapped.
+    pub direction: f64,
+    /// Curvature, counterclockwise positive.
+    pub curvature: f64,
+}
+
 /// A curve from 0 to 1 in the complex plane, by arc length from 0 to [`length`](Self::length): what
 /// a family's segment looks like on the unit chord.
 ///
@@ -30,6 +39,12 @@ pub trait UnitCurve: fmt::Debug + Send + Sync {
     /// Curvature alone.
     fn curvature(&self, s: f64) -> f64 {
         self.curvature_jet(s)[0]
+    }
+
+    /// What holds at the start and at the end.
+    fn ends(&self) -> [CurveEnd; 2] {
+        let at = |s| CurveEnd { direction: self.direction(s), curvature: self.curvature(s) };
+        [at(0.0), at(self.length())]
     }
 
     /// Arc lengths in (0, length), ascending, at which the curve isn't smooth or nearly so: joints,

@@ -60,6 +60,7 @@ impl<M: CurvatureMap> TangentRule for Continuity<M> {
             return self.tangents(run);
         }
         let mut exact = TangentSystem::new(&self.map, self.end, run);
+        exact.start_from_circles(run);
         let mut matrix = BlockTridiagonal::new(n, run.closed);
         let mut rounded = exact.rounded();
         let start: Vec<f64> = rounded.knots.iter().map(|knot| knot.tangent).collect();
@@ -102,7 +103,11 @@ impl<M: CurvatureMap> Continuity<M> {
         let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
         match start {
             Some(start) => system.start_from(start),
-            None => system.start_from_linear(&mut matrix),
+            None => {
+                if !system.start_from_linear(&mut matrix) {
+                    system.start_from_circles(run);
+                }
+            }
         }
         let outcome = newton(&mut system, &mut matrix, PLAIN);
         system.finish(outcome.iterations)
@@ -252,7 +257,6 @@ impl<'a> TangentSystem<'a> {
             adapted,
         };
         system.scale();
-        system.start_from_circles(run);
         system
     }
 
@@ -373,14 +377,15 @@ impl<'a> TangentSystem<'a> {
         self.knots[knot].tangent = start[knot];
     }
 
-    /// The tangents that solve the equations of the map linearised at the straight line, which are near
-    /// enough to spare one evaluation of four; not where the curve bends so much that they lead astray.
-    fn start_from_linear(&mut self, matrix: &mut BlockTridiagonal<1>) {
+    /// From tangents of 0: those that solve the equations of the map linearised at the straight line, which are
+    /// near enough to spare one evaluation of four. Returns whether they are a start: not where the curve bends
+    /// so much that they lead astray. Maps that are linear anyway need no other.
+    fn start_from_linear(&mut self, matrix: &mut BlockTridiagonal<1>) -> bool {
         /// Radians that all tangents keep within of the chords. Chosen: up to here, no contour of thousands is
         /// led to another curve, and one in a hundred is spared a search; at 2.2 rad some are led astray.
         const LITTLE: f64 = 1.3;
         if self.nature.is_linear || self.nature.order != 1.0 {
-            return;
+            return self.nature.is_linear;
         }
         let straight = self.map.curvatures(ChordAngles::default(), &SegmentContext::UNIT);
         for i in 0..self.segments.len() {
@@ -395,17 +400,24 @@ impl<'a> TangentSystem<'a> {
         self.linearize(matrix);
         matrix.solve();
         let last = self.knots.len() - 1;
-        let bends_little = |(i, (knot, [step])): (usize, (&SystemKnot, &[f64; 1]))| {
+        let bends_little = |(i, (knot, [tangent])): (usize, (&SystemKnot, &[f64; 1]))| {
             let is_end = !self.closed && (i == 0 || i == last);
-            let own = knot.tangent + step;
-            own.abs() <= LITTLE && (is_end || (knot.turn - own).abs() <= LITTLE)
+            tangent.abs() <= LITTLE && (is_end || (knot.turn - tangent).abs() <= LITTLE)
         };
-        if self.knots.iter().zip(&matrix.right).enumerate().all(bends_little) {
-            for (knot, [step]) in self.knots.iter_mut().zip(&matrix.right) {
-                knot.tangent += step;
+        let is_start = self.knots.iter().zip(&matrix.right).enumerate().all(bends_little);
+        if is_start {
+            for (knot, [tangent]) in self.knots.iter_mut().zip(&matrix.right) {
+                knot.tangent = *tangent;
+            }
+            for (end, segment) in [(0, 0), (last, self.segments.len() - 1)] {
+                if let Equation::End(NaturalEnd::Angle(function)) = self.knots[end].equation {
+                    let ChordAngles { theta0, theta1 } = self.angles(segment);
+                    self.knots[end].tangent = function(if end == 0 { theta1 } else { theta0 }).0;
+                }
             }
             self.keep_in_range();
         }
+        is_start
     }
 
     /// Tangents that are known roughly.

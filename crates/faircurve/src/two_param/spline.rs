@@ -6,7 +6,7 @@ use crate::catalog::SplineInfo;
 use crate::frame::{ChordAngles, wrap_angle};
 use crate::outline::Join;
 use crate::plan::Run;
-use crate::segment::Segment;
+use crate::segment::{CurveEnd, Segment};
 use crate::spline::{Adaptation, Effort, Place, Relaxation, RunSolution, Spline};
 use crate::tolerance::SOLVED;
 
@@ -86,26 +86,23 @@ impl Drawing<'_> {
         let mut relaxed = Vec::new();
         let mut residual = 0.0f64;
         let (is_smooth, keeps_curvature) = (self.info.continuity() > 0, self.keeps_curvature());
+        let drawn: Vec<[CurveEnd; 2]> = segments.iter().map(Segment::ends).collect();
         for (i, mismatch) in mismatch.into_iter().enumerate() {
             let mut off = if mismatch.is_nan() { f64::MAX } else { mismatch };
             let mut turns = 0.0f64;
             if run.closed || (i > 0 && i + 1 < n) {
                 let previous = if i == 0 { n - 1 } else { i - 1 };
-                let (before, after) = (&segments[previous], &segments[i]);
+                let (before, after) = (&drawn[previous][1], &drawn[i][0]);
                 if is_smooth {
-                    turns = jump_of_direction(before, after);
+                    turns = off_direction(before.direction, after.direction);
                 }
                 if keeps_curvature {
                     let chords = [previous, i].map(|segment| ends[segment].context.chord);
-                    off = off.max(jump_of_curvature(before, after, chords));
+                    off = off.max(jump_of_curvature(before.curvature, after.curvature, chords));
                 }
             } else if let Some(tangent) = run.knots[i].tangent {
-                turns = if i == 0 {
-                    off_direction(tangent, segments[0].direction(0.0))
-                } else {
-                    let last = &segments[segments.len() - 1];
-                    off_direction(tangent, last.direction(last.length()))
-                };
+                let end = if i == 0 { drawn[0][0] } else { drawn[segments.len() - 1][1] };
+                turns = off_direction(tangent, end.direction);
             }
             if turns <= SOLVED && off <= SOLVED {
                 residual = residual.max(turns).max(off);
@@ -185,11 +182,6 @@ impl Drawing<'_> {
     }
 }
 
-/// Of the direction of travel, in radians.
-fn jump_of_direction(before: &Segment, after: &Segment) -> f64 {
-    off_direction(before.direction(before.length()), after.direction(0.0))
-}
-
 /// Radians between two directions.
 fn off_direction(a: f64, b: f64) -> f64 {
     wrap_angle(b - a).abs()
@@ -197,11 +189,11 @@ fn off_direction(a: f64, b: f64) -> f64 {
 
 /// Of curvature times the harmonic mean of the chords, which are given; at what is all but a cusp, where
 /// that product is large, less by the square of it.
-fn jump_of_curvature(before: &Segment, after: &Segment, [a, b]: [f64; 2]) -> f64 {
+fn jump_of_curvature(before: f64, after: f64, [a, b]: [f64; 2]) -> f64 {
     /// Curvature times chord from which on a bend is as good as a cusp.
     const CUSP: f64 = 32.0;
     let h = 2.0 * a * b / (a + b);
-    let (arriving, leaving) = (before.curvature(before.length()) * h, after.curvature(0.0) * h);
+    let (arriving, leaving) = (before * h, after * h);
     let least = (arriving.abs().min(leaving.abs()) / CUSP).max(1.0);
     ((leaving - arriving) / least / least).abs()
 }
