@@ -497,7 +497,7 @@ impl Plan {
         sort_by(&mut report.relaxed, |a, b| order(a).cmp(&order(b)));
         report.relaxed.dedup_by_key(|r| (r.place, r.asked));
         sort_by(&mut report.adapted, |a, b| a.place.cmp(&b.place));
-        let placed = self.place_segments(&shapes);
+        let placed = self.place_segments(shapes);
         let knots = self.solved_knots(&placed, &report);
         let curve = if placed.is_empty() && self.points.len() == 1 {
             Curve::from_point(self.points[0])
@@ -509,35 +509,39 @@ impl Plan {
 
     /// The shapes of the node segments, placed between the input's own points, with segments of
     /// length 0 between coincident knots.
-    fn place_segments(&self, shapes: &[Option<Segment>]) -> Vec<Segment> {
+    fn place_segments(&self, shapes: Vec<Option<Segment>>) -> Vec<Segment> {
         let count = self.points.len();
         let total = if self.closed { count } else { count - 1 };
         let ends = |i: usize| (self.points[i], self.points[if i + 1 == count { 0 } else { i + 1 }]);
-        let placed = |segment: usize| {
-            let (start, end) = ends(self.nodes[segment].last);
-            match &shapes[segment] {
+        let place = |(shape, node): (Option<Segment>, &Node)| {
+            let (start, end) = ends(node.last);
+            match shape {
                 Some(shape) if !shape.is_line() => shape.moved_to(start, end, self.unit),
                 _ => Segment::line(start, end),
             }
         };
+        let placed: Vec<Segment> = shapes.into_iter().zip(&self.nodes).map(place).collect();
+        if placed.len() == total {
+            return placed;
+        }
         // Between coincident knots: the direction of what arrives, or else of what leaves.
         let arriving = |s: &Segment| s.direction(s.length());
-        let around = || match (shapes.len(), self.closed) {
-            (0, _) => 0.0,
-            (n, true) => arriving(&placed(n - 1)),
-            (_, false) => placed(0).direction(0.0),
+        let around = match (&placed[..], self.closed) {
+            ([], _) => 0.0,
+            ([.., last], true) => arriving(last),
+            ([first, ..], false) => first.direction(0.0),
         };
         let mut whole: Vec<Segment> = Vec::with_capacity(total);
         let fill = |whole: &mut Vec<Segment>, to: usize| {
             while whole.len() < to {
                 let (start, end) = ends(whole.len());
-                let way = whole.last().map_or_else(around, arriving);
+                let way = whole.last().map_or(around, arriving);
                 whole.push(Segment::line_with_direction(start, end, way));
             }
         };
-        for segment in 0..shapes.len() {
-            fill(&mut whole, self.nodes[segment].last);
-            whole.push(placed(segment));
+        for (segment, node) in placed.into_iter().zip(&self.nodes) {
+            fill(&mut whole, node.last);
+            whole.push(segment);
         }
         fill(&mut whole, total);
         whole

@@ -62,6 +62,27 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     (f64::from_bits(sine.to_bits() ^ sign), f64::from_bits(cosine.to_bits() ^ sign))
 }
 
+/// The same for |x| ≤ 0.4, to 2e-16, in half the time: by Taylor's series, whose next terms are below 3e-17.
+#[inline(always)]
+pub(crate) fn sin_cos_of_small(x: f64) -> (f64, f64) {
+    const SINE: [f64; 6] = [
+        -1.0 / 6.0,
+        1.0 / 120.0,
+        -1.0 / 5040.0,
+        1.0 / 362_880.0,
+        -1.0 / 39_916_800.0,
+        1.0 / 6_227_020_800.0,
+    ];
+    const COSINE: [f64; 6] =
+        [-0.5, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40_320.0, -1.0 / 3_628_800.0, 1.0 / 479_001_600.0];
+    let q = x * x;
+    let q2 = q * q;
+    let series = |[c0, c1, c2, c3, c4, c5]: [f64; 6]| {
+        (c0 + c1 * q) + ((c2 + c3 * q) + (c4 + c5 * q) * q2) * q2
+    };
+    (x + x * (q * series(SINE)), 1.0 + q * series(COSINE))
+}
+
 /// e^{i·angle}, with the errors of [`sin_cos`].
 #[inline(always)]
 pub(crate) fn cis(angle: f64) -> Complex64 {
@@ -78,13 +99,8 @@ pub(crate) fn unit_vector(angle: f64) -> Complex64 {
 }
 
 /// arctan(i/4) for i from 0 to 4.
-const ARCTAN_OF_QUARTERS: [f64; 5] = [
-    0.0,
-    0.244_978_663_126_864_15,
-    0.463_647_609_000_806_1,
-    0.643_501_108_793_284_4,
-    FRAC_PI_4,
-];
+const ARCTAN_OF_QUARTERS: [f64; 5] =
+    [0.0, 0.244_978_663_126_864_15, 0.463_647_609_000_806_1, 0.643_501_108_793_284_4, FRAC_PI_4];
 
 /// The argument of `z`, in [−π, π], to 4e-16 and to three last places of itself; sooner where it is small.
 #[inline]
@@ -107,7 +123,8 @@ fn large_argument(z: Complex64) -> f64 {
         return z.arg();
     }
     // Turned back by the nearest of those: a tangent of at most 1/8.
-    let nearest = [0.125, 0.375, 0.625, 0.875].iter().filter(|&&middle| small > middle * large).count();
+    let nearest =
+        [0.125, 0.375, 0.625, 0.875].iter().filter(|&&middle| small > middle * large).count();
     let quarter = 0.25 * nearest as f64;
     let tangent = (small - quarter * large) / (large + quarter * small);
     let angle = ARCTAN_OF_QUARTERS[nearest] + small_arctan(tangent);
@@ -143,6 +160,18 @@ mod tests {
             let z = Complex64::new(x, y);
             assert_eq!(argument(z).to_bits(), z.arg().to_bits(), "{z}");
             assert_eq!(argument(z.conj()), -argument(z), "{z}");
+        }
+    }
+
+    #[test]
+    fn sines_of_small_numbers_are_those_of_all() {
+        for i in -4000..=4000 {
+            let x = 1e-4 * f64::from(i);
+            let ((sin, cos), known) = (sin_cos_of_small(x), x.sin_cos());
+            assert!(
+                (sin - known.0).abs() <= 2e-16 * x.abs() && (cos - known.1).abs() <= 2e-16,
+                "{x}"
+            );
         }
     }
 

@@ -99,8 +99,9 @@ impl<C: ParametricCurve> Measured<C> {
     }
 
     fn with(curve: C, directions: [f64; 2], length: f64) -> Self {
-        let end = |i: usize| {
-            CurveEnd { direction: directions[i], curvature: curvature(&curve, i as f64) }
+        let end = |i: usize| CurveEnd {
+            direction: directions[i],
+            curvature: curvature(&curve, i as f64),
         };
         let ends = [end(0), end(1)];
         Measured { curve, ends, length, later: Vec::new(), breaks: Vec::new() }

@@ -353,10 +353,8 @@ impl Segment {
                 curvature: (curvature_jet(spiral.k, local)[0] * (1.0 / self.length))
                     .clamp(f64::MIN, f64::MAX),
             }),
-            _ => [0.0, self.length].map(|s| CurveEnd {
-                direction: self.direction(s),
-                curvature: self.curvature(s),
-            }),
+            _ => [0.0, self.length]
+                .map(|s| CurveEnd { direction: self.direction(s), curvature: self.curvature(s) }),
         }
     }
 
@@ -558,8 +556,8 @@ impl Segment {
 
     /// The same segment scaled and turned onto another chord, which must not be zero: what undoing
     /// a scale by a power of two does (by `unit`, in most cases), or giving a merged knot its own place.
-    pub(crate) fn moved_to(&self, start: Point, end: Point, unit: f64) -> Segment {
-        let (from, to) = (self.end - self.start, end - start);
+    pub(crate) fn moved_to(self, start: Point, end: Point, unit: f64) -> Segment {
+        let (from, to, old_start) = (self.end - self.start, end - start, self.start);
         // The same as is computed otherwise, sooner.
         let is_scaled = to == from * unit;
         let (scale, turn) =
@@ -567,7 +565,7 @@ impl Segment {
         let moved = |p: Point| {
             // Multiplication by the ratio of the chords, as complex numbers.
             let ratio = Vec2::new(from.dot(to), from.cross(to)) / from.hypot2();
-            let v = p - self.start;
+            let v = p - old_start;
             start + Vec2::new(v.x * ratio.x - v.y * ratio.y, v.x * ratio.y + v.y * ratio.x)
         };
         self.moved_with(start, end, scale, turn, &moved)
@@ -576,30 +574,29 @@ impl Segment {
     /// The same segment between other points, scaled and turned with the whole that it is part of:
     /// where it is short, its own points don't know its direction well.
     fn moved_with(
-        &self,
+        mut self,
         start: Point,
         end: Point,
         scale: f64,
         turn: f64,
         moved: &dyn Fn(Point) -> Point,
     ) -> Segment {
-        let shape = match &self.shape {
+        match &mut self.shape {
             Shape::Line => return Segment::line(start, end),
-            Shape::Spiral(_) | Shape::Elastica(_) => self.shape.clone(),
-            Shape::Unit(piece) => {
-                Shape::Unit(UnitPiece { scale: piece.scale * scale, ..piece.clone() })
-            }
+            Shape::Spiral(_) | Shape::Elastica(_) => {}
+            Shape::Unit(piece) => piece.scale *= scale,
             Shape::Chain(members) => {
                 let last = members.len() - 1;
                 let mut next = start;
                 return Segment::chain(members.iter().enumerate().map(|(i, member)| {
                     let from = next;
                     next = if i == last { end } else { moved(member.end) };
-                    member.moved_with(from, next, scale, turn, moved)
+                    member.clone().moved_with(from, next, scale, turn, moved)
                 }));
             }
-        };
-        Segment { start, end, shape, length: self.length * scale, heading: self.heading + turn }
+        }
+        let (length, heading) = (self.length * scale, self.heading + turn);
+        Segment { start, end, length, heading, ..self }
     }
 
     /// Arc lengths at which curvature is zero (inflections), ascending; none on a line. On shapes

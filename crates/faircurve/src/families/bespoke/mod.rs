@@ -10,7 +10,7 @@ use num_complex::Complex64;
 use super::catalog::{Claim, ParamKind, ParamSpec, Params, SplineInfo};
 use super::shapes;
 use crate::frame::{ChordAngles, EndCurvature};
-use crate::numeric::trig::sin_cos;
+use crate::numeric::trig::{sin_cos, sin_cos_of_small};
 use crate::outline::Join;
 use crate::segment::{Measured, Segment, UnitBezier};
 use crate::two_param::continuity::{Continuity, NaturalEnd};
@@ -91,14 +91,14 @@ impl Arms {
     /// Bespoke section 3, with the cosine that its text prints as a sine (`docs/errata.md`).
     fn new(tangents: &Tangents) -> Arms {
         // Both arms take the same steps side by side: two lanes of one register.
-        let Tangents { angle, sin, cos } = *tangents;
-        let (theta_b, sin_b, cos_b) = (swapped(angle), swapped(sin), swapped(cos));
-        let inner = both(|i| 2.0 * theta_b[i] - 0.4 * (2.0 * sin_b[i] * cos_b[i]));
-        let (sin_inner, cos_inner) = sin_cos_of_both(inner);
-        let theta_a = both(|i| angle[i] - 0.3 * sin_inner[i]);
-        let theta_a_by_other =
-            both(|i| -0.3 * cos_inner[i] * (2.0 - 0.8 * (1.0 - 2.0 * sin_b[i] * sin_b[i])));
-        let (sin, cos) = sin_cos_of_both(theta_a);
+        let Tangents { sin, cos, .. } = *tangents;
+        let (sin_b, cos_b) = (swapped(sin), swapped(cos));
+        let doubled =
+            [both(|i| 2.0 * sin_b[i] * cos_b[i]), both(|i| 1.0 - 2.0 * sin_b[i] * sin_b[i])];
+        let [sin_inner, cos_inner] = turned_back(doubled, doubled[0].map(|sin| 0.4 * sin));
+        let theta_a_by_other = both(|i| -0.3 * cos_inner[i] * (2.0 - 0.8 * doubled[1][i]));
+        // Of θₐ.
+        let [sin, cos] = turned_back([sin, cos], sin_inner.map(|sin| 0.3 * sin));
         // cos 3x = 4 cos³ x − 3 cos x, so that the arm is exactly odd about π/2.
         let by_own = both(|i| 5.0 / 12.0 * sin[i] * (2.4 * cos[i] * cos[i] - 1.6));
         Arms {
@@ -156,6 +156,17 @@ fn swapped([start, end]: [f64; 2]) -> [f64; 2] {
 fn sin_cos_of_both(angles: [f64; 2]) -> ([f64; 2], [f64; 2]) {
     let (start, end) = (sin_cos(angles[0]), sin_cos(angles[1]));
     ([start.0, end.0], [start.1, end.1])
+}
+
+/// Sine and cosine of angles, given by theirs, less at most 0.4.
+#[inline(always)]
+fn turned_back([sin, cos]: [[f64; 2]; 2], by: [f64; 2]) -> [[f64; 2]; 2] {
+    let (a, b) = (sin_cos_of_small(by[0]), sin_cos_of_small(by[1]));
+    let (sin_by, cos_by) = ([a.0, b.0], [a.1, b.1]);
+    [
+        both(|i| sin[i] * cos_by[i] - cos[i] * sin_by[i]),
+        both(|i| cos[i] * cos_by[i] + sin[i] * sin_by[i]),
+    ]
 }
 
 impl CurvatureMap for BespokeCubics {
