@@ -24,74 +24,81 @@ export function knotRows(knots: readonly Knot[], place = ""): Float64Array {
   const size = ROW * knots.length;
   if (size > room.length) room = new Float64Array(2 * size);
   const rows = room.subarray(0, size).fill(NaN);
-  knots.forEach((knot, index) => writeRow(rows, ROW * index, knot, () => `${place}knot ${index}: `));
+  for (let index = 0; index < knots.length; index++) {
+    try {
+      writeRow(rows, ROW * index, knots[index]!);
+    } catch (error) {
+      if (!(error instanceof FaircurveError)) throw error;
+      throw new FaircurveError(`${place}knot ${index}: ${error.message}`, error.hint);
+    }
+  }
   return rows;
 }
 
 /** The row of one knot. */
 export function knotRow(knot: Knot): Float64Array {
   const row = new Float64Array(ROW).fill(NaN);
-  writeRow(row, 0, knot, () => "");
+  writeRow(row, 0, knot);
   return row;
 }
 
-/** What messages start with. */
-type Place = () => string;
-
 /** Writes what is given into a row of NaN. */
-function writeRow(rows: Float64Array, at: number, knot: Knot, place: Place): void {
-  if (typeof knot !== "object" || knot === null) throw wrongType(`${place()}a knot`, "an object", knot);
+function writeRow(rows: Float64Array, at: number, knot: Knot): void {
+  if (typeof knot !== "object" || knot === null) throw wrongType("a knot", "an object", knot);
   for (const key in knot) {
     // Most knots have nothing else.
-    if (key === "x" || key === "y") {
-      if (knot[key] !== undefined) rows[at + (key === "x" ? 0 : 1)] = number(knot[key], place, key);
+    if (key === "x") {
+      if (knot.x !== undefined) rows[at] = number(knot.x, key);
+      continue;
+    } else if (key === "y") {
+      if (knot.y !== undefined) rows[at + 1] = number(knot.y, key);
       continue;
     }
     const column = KEYS.get(key);
     if (column === undefined) {
-      throw new FaircurveError(`${place()}there is no key \`${key}\` here`, wasm.suggest(key, [...KEYS.keys()]));
+      throw new FaircurveError(`there is no key \`${key}\` here`, wasm.suggest(key, [...KEYS.keys()]));
     }
     const value = knot[key as keyof Knot];
     if (value === undefined) continue;
     if (key === "join") {
-      rows[at + column] = joinCode(value, place);
+      rows[at + column] = joinCode(value);
     } else if (key === "tangent") {
       if ((knot.tangent_in ?? knot.tangent_out) !== undefined) {
         throw new FaircurveError(
-          `${place()}\`tangent\` gives both sides, so no other may be given`,
+          `\`tangent\` gives both sides, so no other may be given`,
           "give `tangent`, or `tangent_in` and `tangent_out`",
         );
       }
-      for (const side of ["tangent_in", "tangent_out"]) vector(rows, at + KEYS.get(side)!, value, place, side);
+      for (const side of ["tangent_in", "tangent_out"]) vector(rows, at + KEYS.get(side)!, value, side);
     } else if (key === "tangent_in" || key === "tangent_out") {
-      vector(rows, at + column, value, place, key);
+      vector(rows, at + column, value, key);
     } else {
-      rows[at + column] = number(value, place, key);
+      rows[at + column] = number(value, key);
     }
   }
   if (knot.x === undefined || knot.y === undefined) {
-    throw new FaircurveError(`${place()}the key \`${knot.x === undefined ? "x" : "y"}\` is missing`);
+    throw new FaircurveError(`the key \`${knot.x === undefined ? "x" : "y"}\` is missing`);
   }
 }
 
-function joinCode(join: unknown, place: Place): number {
-  if (typeof join !== "string") throw wrongType(`${place()}\`join\``, "a string", join);
+function joinCode(join: unknown): number {
+  if (typeof join !== "string") throw wrongType("`join`", "a string", join);
   const code = JOINS.indexOf(join);
-  if (code < 0) throw new FaircurveError(`${place()}there is no join \`${join}\``, wasm.suggest(join, JOINS));
+  if (code < 0) throw new FaircurveError(`there is no join \`${join}\``, wasm.suggest(join, JOINS));
   return code;
 }
 
-function vector(rows: Float64Array, at: number, value: unknown, place: Place, key: string): void {
+function vector(rows: Float64Array, at: number, value: unknown, key: string): void {
   if (!Array.isArray(value) || value.length !== 2) {
-    throw wrongType(`${place()}\`${key}\``, "a vector such as [1, 0]", value);
+    throw wrongType(`\`${key}\``, "a vector such as [1, 0]", value);
   }
-  rows[at] = number(value[0], place, key);
-  rows[at + 1] = number(value[1], place, key);
+  rows[at] = number(value[0], key);
+  rows[at + 1] = number(value[1], key);
 }
 
 /** A number as it is; NaN, which would stand for nothing, as the infinity that is refused in its place. */
-function number(value: unknown, place: Place, key: string): number {
-  if (typeof value !== "number") throw wrongType(`${place()}\`${key}\``, "a number", value);
+function number(value: unknown, key: string): number {
+  if (typeof value !== "number") throw wrongType(`\`${key}\``, "a number", value);
   return Number.isNaN(value) ? Infinity : value;
 }
 

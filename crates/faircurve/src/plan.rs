@@ -456,14 +456,18 @@ impl Plan {
     pub fn assemble(&self, solved: Vec<RunSolution>) -> Solution {
         let (n, segments) = (self.nodes.len(), self.node_segments());
         let mut report = SolveReport { adapted: self.adapted.clone(), ..SolveReport::default() };
-        let mut shapes: Vec<Option<Segment>> = vec![None; segments];
+        let mut placed: Vec<Option<Segment>> = vec![None; segments];
         for ((place, run), solution) in self.places.iter().zip(&self.runs).zip(solved) {
             let node_of = |i: usize| place.node_of(run, i, n);
             let segment_of = |i: usize| place.segment_of(run, i, n);
             let solved = solution.segments.into_iter().take(run.segment_count());
-            for (i, segment) in solved.enumerate() {
-                let segment = if place.reversed { segment.reversed() } else { segment };
-                shapes[segment_of(i)] = Some(segment);
+            for (i, mut segment) in solved.enumerate() {
+                if place.reversed {
+                    segment = segment.reversed();
+                }
+                let (start, end) = self.ends_of(segment_of(i));
+                segment.move_to(start, end, self.unit);
+                placed[segment_of(i)] = Some(segment);
             }
             let input_place = |place: Place| match place {
                 Place::Knot(i) => Place::Knot(self.nodes[node_of(i)].first),
@@ -497,7 +501,7 @@ impl Plan {
         sort_by(&mut report.relaxed, |a, b| order(a).cmp(&order(b)));
         report.relaxed.dedup_by_key(|r| (r.place, r.asked));
         sort_by(&mut report.adapted, |a, b| a.place.cmp(&b.place));
-        let placed = self.place_segments(shapes);
+        let placed = self.fill_in(placed);
         let knots = self.solved_knots(&placed, &report);
         let curve = if placed.is_empty() && self.points.len() == 1 {
             Curve::from_point(self.points[0])
@@ -507,20 +511,31 @@ impl Plan {
         Solution { curve, knots, report }
     }
 
-    /// The shapes of the node segments, placed between the input's own points, with segments of
-    /// length 0 between coincident knots.
-    fn place_segments(&self, shapes: Vec<Option<Segment>>) -> Vec<Segment> {
+    /// The input's points at both ends of the segment that leaves a node.
+    fn ends_of(&self, node: usize) -> (Point, Point) {
+        self.ends_from(self.nodes[node].last)
+    }
+
+    /// That point of the input and the next.
+    fn ends_from(&self, point: usize) -> (Point, Point) {
+        let next = if point + 1 == self.points.len() { 0 } else { point + 1 };
+        (self.points[point], self.points[next])
+    }
+
+    /// The segments of all the input's points, of those between nodes: lines where there is none, and between
+    /// coincident knots segments of length 0.
+    fn fill_in(&self, placed: Vec<Option<Segment>>) -> Vec<Segment> {
         let count = self.points.len();
         let total = if self.closed { count } else { count - 1 };
-        let ends = |i: usize| (self.points[i], self.points[if i + 1 == count { 0 } else { i + 1 }]);
-        let place = |(shape, node): (Option<Segment>, &Node)| {
-            let (start, end) = ends(node.last);
-            match shape {
-                Some(shape) if !shape.is_line() => shape.moved_to(start, end, self.unit),
-                _ => Segment::line(start, end),
-            }
+        let line = |node| {
+            let (start, end) = self.ends_of(node);
+            Segment::line(start, end)
         };
-        let placed: Vec<Segment> = shapes.into_iter().zip(&self.nodes).map(place).collect();
+        let placed: Vec<Segment> = placed
+            .into_iter()
+            .enumerate()
+            .map(|(node, segment)| segment.unwrap_or_else(|| line(node)))
+            .collect();
         if placed.len() == total {
             return placed;
         }
@@ -534,7 +549,7 @@ impl Plan {
         let mut whole: Vec<Segment> = Vec::with_capacity(total);
         let fill = |whole: &mut Vec<Segment>, to: usize| {
             while whole.len() < to {
-                let (start, end) = ends(whole.len());
+                let (start, end) = self.ends_from(whole.len());
                 let way = whole.last().map_or(around, arriving);
                 whole.push(Segment::line_with_direction(start, end, way));
             }
@@ -573,7 +588,8 @@ impl Plan {
                 curvature_out: leaving.map(|end| end.curvature),
             };
             let members = (node.last + count - node.first) % count;
-            for i in 0..=members {
+            knots.push(solved);
+            for i in 1..=members {
                 let point = self.points[(node.first + i) % count];
                 knots.push(SolvedKnot { point, ..solved });
             }

@@ -5,8 +5,6 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, PI as HALF_TURN};
 
 use num_complex::Complex64;
 
-use super::roots::horner;
-
 /// π in two parts, the first with so few bits (33) that its product with a number of half turns
 /// below 2²⁰ is exact (Cody and Waite).
 const PI: [f64; 2] = [3.141_592_653_468_251_2, 1.215_420_101_301_238_4e-10];
@@ -111,8 +109,13 @@ pub(crate) fn argument(z: Complex64) -> f64 {
 /// Of tangents up to 1/8, for which these terms are enough.
 #[inline(always)]
 fn small_arctan(tangent: f64) -> f64 {
-    let series = [1.0, 3.0, 5.0, 7.0, 9.0, 11.0, 13.0, 15.0, 17.0].map(|n| 1.0 / n);
-    tangent * horner(&series, -tangent * tangent)
+    let [c0, c1, c2, c3, c4, c5, c6, c7, c8] =
+        [1.0, 3.0, 5.0, 7.0, 9.0, 11.0, 13.0, 15.0, 17.0].map(|n| 1.0 / n);
+    let q = -tangent * tangent;
+    let (q2, q4) = (q * q, q * q * (q * q));
+    let low = (c1 + c2 * q) + (c3 + c4 * q) * q2;
+    let high = (c5 + c6 * q) + (c7 + c8 * q) * q2;
+    tangent * (c0 + q * (low + high * q4))
 }
 
 #[inline(never)] // for the size of the web's module
@@ -123,8 +126,8 @@ fn large_argument(z: Complex64) -> f64 {
         return z.arg();
     }
     // Turned back by the nearest of those: a tangent of at most 1/8.
-    let nearest =
-        [0.125, 0.375, 0.625, 0.875].iter().filter(|&&middle| small > middle * large).count();
+    let above = |middle: f64| usize::from(small > middle * large);
+    let nearest = above(0.125) + above(0.375) + above(0.625) + above(0.875);
     let quarter = 0.25 * nearest as f64;
     let tangent = (small - quarter * large) / (large + quarter * small);
     let angle = ARCTAN_OF_QUARTERS[nearest] + small_arctan(tangent);

@@ -554,9 +554,13 @@ impl Segment {
         Segment { start, end, shape, length, heading }
     }
 
-    /// The same segment scaled and turned onto another chord, which must not be zero: what undoing
+    /// Scales and turns it onto another chord, which must not be zero: what undoing
     /// a scale by a power of two does (by `unit`, in most cases), or giving a merged knot its own place.
-    pub(crate) fn moved_to(self, start: Point, end: Point, unit: f64) -> Segment {
+    pub(crate) fn move_to(&mut self, start: Point, end: Point, unit: f64) {
+        if self.is_line() {
+            *self = Segment::line(start, end);
+            return;
+        }
         let (from, to, old_start) = (self.end - self.start, end - start, self.start);
         // The same as is computed otherwise, sooner.
         let is_scaled = to == from * unit;
@@ -568,35 +572,42 @@ impl Segment {
             let v = p - old_start;
             start + Vec2::new(v.x * ratio.x - v.y * ratio.y, v.x * ratio.y + v.y * ratio.x)
         };
-        self.moved_with(start, end, scale, turn, &moved)
+        self.move_with(start, end, scale, turn, &moved);
     }
 
-    /// The same segment between other points, scaled and turned with the whole that it is part of:
-    /// where it is short, its own points don't know its direction well.
-    fn moved_with(
-        mut self,
+    /// Moves it between other points, scaled and turned with the whole that it is part of: where it is short, its
+    /// own points don't know its direction well.
+    fn move_with(
+        &mut self,
         start: Point,
         end: Point,
         scale: f64,
         turn: f64,
         moved: &dyn Fn(Point) -> Point,
-    ) -> Segment {
+    ) {
         match &mut self.shape {
-            Shape::Line => return Segment::line(start, end),
+            Shape::Line => {
+                *self = Segment::line(start, end);
+                return;
+            }
             Shape::Spiral(_) | Shape::Elastica(_) => {}
             Shape::Unit(piece) => piece.scale *= scale,
             Shape::Chain(members) => {
                 let last = members.len() - 1;
                 let mut next = start;
-                return Segment::chain(members.iter().enumerate().map(|(i, member)| {
-                    let from = next;
+                let place = |(i, member): (usize, &Segment)| {
+                    let (from, mut member) = (next, member.clone());
                     next = if i == last { end } else { moved(member.end) };
-                    member.clone().moved_with(from, next, scale, turn, moved)
-                }));
+                    member.move_with(from, next, scale, turn, moved);
+                    member
+                };
+                *self = Segment::chain(members.iter().enumerate().map(place));
+                return;
             }
         }
-        let (length, heading) = (self.length * scale, self.heading + turn);
-        Segment { start, end, length, heading, ..self }
+        (self.start, self.end) = (start, end);
+        self.length *= scale;
+        self.heading += turn;
     }
 
     /// Arc lengths at which curvature is zero (inflections), ascending; none on a line. On shapes

@@ -59,24 +59,19 @@ struct Drawing<'a> {
 impl Drawing<'_> {
     fn draw(&self, run: &Run, tangents: Tangents) -> RunSolution {
         let n = run.knots.len();
-        let (segments, stand_ins): (Vec<Segment>, Vec<Option<StandIn>>) = tangents
-            .ends
-            .iter()
-            .enumerate()
-            .map(|(i, ends)| {
-                let (start, end) = (run.knots[i].point, run.knots[(i + 1) % n].point);
-                self.shape.place_or_stand_in(start, end, ends)
-            })
-            .unzip();
-        let mut solution = self.assess(run, tangents, segments);
-        for (i, stand_in) in stand_ins.into_iter().enumerate() {
-            solution.relaxed.extend(stand_in.map(|stand_in| Relaxation {
-                place: Place::Segment(i),
-                asked: stand_in.asked,
-                got: stand_in.got,
-                reason: stand_in.reason.to_owned(),
+        let mut segments = Vec::with_capacity(tangents.ends.len());
+        let mut stand_ins = Vec::new();
+        for (i, ends) in tangents.ends.iter().enumerate() {
+            let end = if i + 1 == n { 0 } else { i + 1 };
+            let (start, end) = (run.knots[i].point, run.knots[end].point);
+            let (segment, stand_in) = self.shape.place_or_stand_in(start, end, ends);
+            segments.push(segment);
+            stand_ins.extend(stand_in.map(|StandIn { asked, got, reason }| {
+                Relaxation { place: Place::Segment(i), asked, got, reason: reason.to_owned() }
             }));
         }
+        let mut solution = self.assess(run, tangents, segments);
+        solution.relaxed.append(&mut stand_ins);
         solution
     }
 
