@@ -17,6 +17,8 @@
 //! ```
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "this is a program")]
 
+#[cfg(feature = "npm")]
+mod copies;
 mod editor;
 mod family;
 mod header;

@@ -11,7 +11,7 @@ use faircurve::catalog::ENTRIES;
 use faircurve_format::catalogue_json;
 use wasm_bindgen_cli_support::Bindgen;
 
-use crate::{at, root};
+use crate::{at, copies, root};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
@@ -139,6 +139,9 @@ fn module(name: &str, level: &str, wasm_level: &str) -> Result<(), String> {
     let folder = source().join("js/wasm");
     bindgen.generate(&folder).map_err(|error| format!("wasm-bindgen: {error:#}"))?;
     let file = folder.join(format!("{name}_bg.wasm"));
+    if wasm_level == "-O3" {
+        copies::spell_out(&file)?;
+    }
     let features = FEATURES.map(|feature| format!("--enable-{feature}"));
     run(npx("wasm-opt")
         .arg(&file)

@@ -66,8 +66,11 @@ impl Drawing<'_> {
             let (start, end) = (run.knots[i].point, run.knots[end].point);
             let (segment, stand_in) = self.shape.place_or_stand_in(start, end, ends);
             segments.push(segment);
-            stand_ins.extend(stand_in.map(|StandIn { asked, got, reason }| {
-                Relaxation { place: Place::Segment(i), asked, got, reason: reason.to_owned() }
+            stand_ins.extend(stand_in.map(|StandIn { asked, got, reason }| Relaxation {
+                place: Place::Segment(i),
+                asked,
+                got,
+                reason: reason.to_owned(),
             }));
         }
         let mut solution = self.assess(run, tangents, segments);
