@@ -144,6 +144,7 @@ pub enum InputError {
 }
 
 impl fmt::Display for InputError {
+    /// The limits are spelled out: to write numbers by powers of ten costs the module for the web a kilobyte.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             InputError::Empty => f.write_str("the contour has no knots"),
@@ -151,11 +152,9 @@ impl fmt::Display for InputError {
                 write!(f, "{what} of knot {knot} is not a finite number")
             }
             InputError::TooLarge { knot } => {
-                write!(f, "knot {knot} lies beyond {LARGEST_COORDINATE:e} units")
+                write!(f, "knot {knot} lies beyond 1e55 units")
             }
-            InputError::TooSmall => {
-                write!(f, "the whole contour is smaller than {SMALLEST_SIZE:e} units")
-            }
+            InputError::TooSmall => f.write_str("the whole contour is smaller than 1e-55 units"),
             InputError::CurvatureTooLarge { knot, what } => {
                 write!(f, "{what} of knot {knot} is that of a circle too small to be drawn here")
             }
@@ -976,5 +975,20 @@ fn reversed_knot(knot: RunKnot) -> RunKnot {
         curvature: knot.curvature.map(|k| -k),
         tension: [knot.tension[1], knot.tension[0]],
         ..knot
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_name_the_limits() {
+        for (error, limit) in [
+            (InputError::TooLarge { knot: 3 }, LARGEST_COORDINATE),
+            (InputError::TooSmall, SMALLEST_SIZE),
+        ] {
+            assert!(error.to_string().contains(&format!(" {limit:e} units")), "{error}");
+        }
     }
 }

@@ -5,11 +5,11 @@ use std::sync::LazyLock;
 use kurbo::common::GAUSS_LEGENDRE_COEFFS_16;
 use num_complex::Complex64;
 
-use super::contact::{cross, dot};
 use super::minimax::LocalCubic;
 use super::options::Metric;
 use super::piece::{Piece, Stretch};
 use crate::numeric::order::sort_by;
+use crate::numeric::trig::argument;
 
 /// Nodes of one panel.
 const NODES: usize = 16;
@@ -87,7 +87,7 @@ pub(super) fn angle_error(
         for i in 0..NODES {
             if speeds[i] > 0.0 {
                 let velocity = velocities[i];
-                turned += cross(heading, velocity).atan2(dot(heading, velocity));
+                turned += argument(velocity * heading.conj());
                 heading = velocity;
             }
             let partial: f64 = rule.partial[i].iter().zip(speeds).map(|(w, v)| w * v).sum();

@@ -3,6 +3,10 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use num_complex::Complex64;
+
+use super::trig::argument;
+
 /// What formulas are written for: an `f64`, or one with derivatives.
 pub(crate) trait Real:
     Copy
@@ -38,7 +42,7 @@ impl Real for f64 {
 
     #[inline(always)]
     fn atan2(self, x: f64) -> f64 {
-        f64::atan2(self, x)
+        argument(Complex64::new(x, self))
     }
 }
 
@@ -159,7 +163,7 @@ impl<const N: usize> Real for Dual<N> {
         let squared = self.value * self.value + x.value * x.value;
         let inverse = if squared > 0.0 { 1.0 / squared } else { 0.0 };
         let by = std::array::from_fn(|i| (x.value * self.by[i] - self.value * x.by[i]) * inverse);
-        Dual { value: self.value.atan2(x.value), by }
+        Dual { value: Real::atan2(self.value, x.value), by }
     }
 }
 

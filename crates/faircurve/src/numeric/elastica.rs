@@ -13,6 +13,7 @@ use num_complex::Complex64;
 
 use super::dual::Real;
 use super::elliptic::{Elliptic, complete_k};
+use super::trig::argument;
 
 /// An elastica, by its curvature κ and its slope κ′ at a place of reference, s = 0, and the constant
 /// C of κ″ + ½κ³ + Cκ = 0 (thesis eq. 3.10).
@@ -135,7 +136,7 @@ impl Elastica {
         let Terms { k, b, .. } = self.terms();
         let along = self.axis() / b;
         let foot = Complex64::i() * along * (k / b);
-        foot.is_finite().then(|| (foot, along.arg()))
+        foot.is_finite().then(|| (foot, argument(along)))
     }
 
     /// Arc length from a vertex to the inflection beside it, or where there are none to the place
@@ -361,7 +362,7 @@ mod tests {
     /// The end of an arc by the ODE's power series, in the frame of s = 0.
     fn by_series(elastica: &Elastica, s: f64) -> ElasticaState {
         let axis = elastica.axis();
-        let (b, turn) = (axis.norm(), axis.arg());
+        let (b, turn) = (axis.norm(), argument(axis));
         // κ′ = −b sin θ with θ = −turn + direction, and −sin θ = cos(θ + π/2).
         let start = ElasticaState {
             point: Complex64::ZERO,

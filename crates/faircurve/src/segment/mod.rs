@@ -17,7 +17,7 @@ use crate::numeric::order::sort_by;
 use crate::numeric::quadrature::integrate;
 use crate::numeric::roots::{monotone_root, roots_between};
 use crate::numeric::spiro_integral::{angle, curvature_jet, spiro_integral_between, wildness};
-use crate::numeric::trig::unit_vector;
+use crate::numeric::trig::{argument, unit_vector};
 
 pub use bezier::UnitBezier;
 pub use measured::{Measured, ParametricCurve};
@@ -156,7 +156,7 @@ impl Segment {
             return Segment::line(start, end);
         }
         let length = chord.hypot() / local.norm();
-        let heading = direction(chord) - local.arg();
+        let heading = direction(chord) - argument(local);
         Segment { start, end, shape: Shape::Elastica(elastica), length, heading }
     }
 

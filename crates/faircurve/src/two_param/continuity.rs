@@ -744,7 +744,8 @@ impl Turned {
             let slope = (k.abs() / size).max(SMALLEST).powf(1.0 / order - 1.0) / order;
             slope * (1.0 + k * k) / (1.0 + root * root)
         });
-        (roots[1].atan() - roots[0].atan(), more)
+        let [from, to] = roots.map(|root| argument(Complex64::new(1.0, root)));
+        (to - from, more)
     }
 
     /// How the vector's angle changes when the curvature it stands for changes by either of these.

@@ -8,7 +8,7 @@ use kurbo::{Point, Vec2};
 use super::curvature_map::{CurvatureMap, EndCurvatures, SegmentContext};
 use super::extract::segment_with;
 use super::shape::{SegmentEnds, SegmentShape};
-use crate::frame::{ChordAngles, EndCurvature};
+use crate::frame::{ChordAngles, EndCurvature, direction};
 use crate::segment::Segment;
 use crate::spline::Spline;
 
@@ -184,11 +184,11 @@ impl LookupTable {
             points.push(end);
             return;
         }
-        let (middle, direction) = self.midpoint(angles);
+        let (middle, way) = self.midpoint(angles);
         let (before, after) = (middle.to_vec2(), Vec2::new(1.0 - middle.x, -middle.y));
-        let (left, right) = (before.atan2(), after.atan2());
-        let first = ChordAngles::new(left + angles.theta0, direction - left);
-        let second = ChordAngles::new(right - direction, angles.theta1 - right);
+        let (left, right) = (direction(before), direction(after));
+        let first = ChordAngles::new(left + angles.theta0, way - left);
+        let second = ChordAngles::new(right - way, angles.theta1 - right);
         let chord = end - start;
         let turned = Vec2::new(
             chord.x * middle.x - chord.y * middle.y,
