@@ -215,8 +215,12 @@ proptest! {
                 let turn = (a - b).sin().abs().max(1.0 - (a - b).cos());
                 assert!(turn < 1e-8, "{} knot {i}: {a} {b} {solution:?}", info.name);
                 if knot.join != Join::G1 {
-                    let jump = knot.curvature_in.unwrap() - knot.curvature_out.unwrap();
-                    assert!(jump.abs() * scale < 1e-6, "{} knot {i}: {jump:e}", info.name);
+                    let curvatures = [knot.curvature_in.unwrap(), knot.curvature_out.unwrap()];
+                    let [arriving, leaving] = curvatures.map(|curvature| curvature * scale);
+                    // At what is all but a cusp by the measure of `SolveReport::residual`.
+                    let least = (arriving.abs().min(leaving.abs()) / 32.0).max(1.0);
+                    let jump = (arriving - leaving) / least / least;
+                    assert!(jump.abs() < 1e-6, "{} knot {i}: {jump:e}", info.name);
                 }
             }
         });
