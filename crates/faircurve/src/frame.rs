@@ -105,6 +105,7 @@ pub fn wrap_angle(angle: f64) -> f64 {
 }
 
 /// The direction of a vector in radians, in (−π, π].
+#[inline(never)] // for the size of the web's module
 pub fn direction(vector: Vec2) -> f64 {
     one_half_turn(argument(Complex64::new(vector.x, vector.y)))
 }
@@ -116,6 +117,7 @@ fn one_half_turn(angle: f64) -> f64 {
 
 /// The turning angle from one vector to another, in (−π, π], without the cancellation of
 /// subtracting two directions.
+#[inline(never)] // for the size of the web's module
 pub fn turning(from: Vec2, to: Vec2) -> f64 {
     one_half_turn(argument(Complex64::new(from.dot(to), from.cross(to))))
 }

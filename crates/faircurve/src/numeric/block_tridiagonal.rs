@@ -80,14 +80,14 @@ impl<const B: usize> BlockTridiagonal<B> {
     fn solve_leading(&mut self, n: usize) {
         let cyclic = self.cyclic;
         let (rows, rights) = (&mut self.rows[..n], &mut self.right[..n]);
-        let mut before: Option<(BlockRow<B>, [f64; B])> = None;
+        let zero = [[0.0; B]; B];
+        (rows[0].lower, rows[n - 1].upper) = (zero, zero);
+        let (mut before, mut right_before) = (BlockRow::new(zero, zero, zero), [0.0; B]);
         for (row, right) in rows.iter_mut().zip(rights.iter_mut()) {
-            if let Some((before, right_before)) = &before {
-                subtract_product(&mut row.diagonal, &row.lower, &before.upper);
-                subtract(right, &times_vector(&row.lower, right_before));
-                if cyclic {
-                    subtract_product(&mut row.fill, &row.lower, &before.fill);
-                }
+            subtract_product(&mut row.diagonal, &row.lower, &before.upper);
+            subtract(right, &times_vector(&row.lower, &right_before));
+            if cyclic {
+                subtract_product(&mut row.fill, &row.lower, &before.fill);
             }
             let inverse = invert(&row.diagonal);
             *right = times_vector(&inverse, right);
@@ -95,17 +95,15 @@ impl<const B: usize> BlockTridiagonal<B> {
             if cyclic {
                 row.fill = product(&inverse, &row.fill);
             }
-            before = Some((*row, *right));
+            (before, right_before) = (*row, *right);
         }
-        let mut after: Option<(Block<B>, [f64; B])> = None;
+        let (mut fill_after, mut right_after) = (zero, [0.0; B]);
         for (row, right) in rows.iter_mut().zip(rights.iter_mut()).rev() {
-            if let Some((fill_after, right_after)) = &after {
-                subtract(right, &times_vector(&row.upper, right_after));
-                if cyclic {
-                    subtract_product(&mut row.fill, &row.upper, fill_after);
-                }
+            subtract(right, &times_vector(&row.upper, &right_after));
+            if cyclic {
+                subtract_product(&mut row.fill, &row.upper, &fill_after);
             }
-            after = Some((row.fill, *right));
+            (fill_after, right_after) = (row.fill, *right);
         }
     }
 
