@@ -554,8 +554,8 @@ impl Segment {
         Segment { start, end, shape, length, heading }
     }
 
-    /// Scales and turns it onto another chord, which must not be zero: what undoing
-    /// a scale by a power of two does (by `unit`, in most cases), or giving a merged knot its own place.
+    /// Scales and turns it onto another chord, which must not be zero: what undoing a scale by a power of two
+    /// does (by `unit`, in most cases), or giving a merged knot its own place.
     pub(crate) fn move_to(&mut self, start: Point, end: Point, unit: f64) {
         if self.is_line() {
             *self = Segment::line(start, end);
