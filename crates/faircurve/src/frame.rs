@@ -122,6 +122,12 @@ pub fn turning(from: Vec2, to: Vec2) -> f64 {
     one_half_turn(argument(Complex64::new(from.dot(to), from.cross(to))))
 }
 
+/// The direction of a chord from that of the middle of its arc, made odd: half a turn, as of an arc of a circle
+/// that turns more than once, is on the side to which the middle bends.
+pub(crate) fn chord_direction(direction: f64, curvature: f64) -> f64 {
+    if direction.abs() == PI { PI.copysign(curvature) } else { direction }
+}
+
 /// The tangent direction at `middle` of the circle through three points (of the straight line, if
 /// they are collinear); thesis section 4.10.
 pub fn circle_tangent(before: Point, middle: Point, after: Point) -> f64 {

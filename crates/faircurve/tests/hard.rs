@@ -258,3 +258,27 @@ fn a_knot_passed_straight_on_has_no_say() {
         }
     }
 }
+
+/// Found by the law of mirror images: on the way, a segment becomes an arc that turns more than once, whose
+/// chord is half a turn from its middle, to the left and to the right.
+#[test]
+fn mirror_images_take_the_same_course() {
+    use Join::{Corner, G2, G4, TerminalToCurve};
+    let knots = [
+        (147.7668244562803, -185.22398966693302, Corner),
+        (223.50718717368852, -161.79474991985742, G2),
+        (295.86090916315726, -190.03167098839145, G2),
+        (299.0798480803349, -117.6846167543702, G4),
+        (387.40252994613144, -10.636687764589112, G4),
+        (522.5871002617646, 27.871204813539215, G2),
+        (502.02301145521255, 135.74790420015228, TerminalToCurve),
+        (468.94921506118135, 173.24622405699614, Corner),
+    ];
+    let mvc = catalog::spline("mvc").unwrap();
+    let [image, mirrored] = [1.0, -1.0].map(|sign| {
+        let knot = |(x, y, join)| Knot::new((x, sign * y)).join(join);
+        solve(&Contour::open(knots.map(knot)), &*mvc).unwrap()
+    });
+    assert_eq!(image.report.iterations, mirrored.report.iterations);
+    assert_eq!(image.curve.length(), mirrored.curve.length());
+}

@@ -60,7 +60,8 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     (f64::from_bits(sine.to_bits() ^ sign), f64::from_bits(cosine.to_bits() ^ sign))
 }
 
-/// The same for |x| ≤ 0.4, to 2e-16, in half the time: by Taylor's series, whose next terms are below 3e-17.
+/// The same for |x| ≤ 0.4, to 2e-16, by two thirds of the operations: Taylor's series, whose next terms are
+/// below 3e-17.
 #[inline(always)]
 pub(crate) fn sin_cos_of_small(x: f64) -> (f64, f64) {
     const SINE: [f64; 6] = [

@@ -3,6 +3,7 @@
 use num_complex::Complex64;
 
 use crate::frame::ChordAngles;
+use crate::frame::chord_direction;
 use crate::numeric::spiro_integral::{angle, spiro_integral, sub_parameters};
 use crate::numeric::trig::argument;
 
@@ -26,9 +27,10 @@ pub struct SpiralChord {
 }
 
 impl SpiralChord {
-    /// The chord that is this integral.
-    pub(crate) fn new(integral: Complex64) -> Self {
-        SpiralChord { length: integral.norm_sqr().sqrt(), direction: argument(integral) }
+    /// The chord that is this integral, of a spiral with this curvature in the middle.
+    pub(crate) fn new(integral: Complex64, curvature: f64) -> Self {
+        let direction = chord_direction(argument(integral), curvature);
+        SpiralChord { length: integral.norm_sqr().sqrt(), direction }
     }
 }
 
@@ -40,7 +42,7 @@ impl PolynomialSpiral {
 
     /// Its chord, to the accuracy of [`spiro_integral`].
     pub fn chord(&self) -> SpiralChord {
-        SpiralChord::new(spiro_integral(self.k))
+        SpiralChord::new(spiro_integral(self.k), self.k[0])
     }
 
     /// The end tangents relative to the chord (eq. 8.19–8.20), not wrapped: their sum is the whole

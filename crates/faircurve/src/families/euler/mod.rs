@@ -171,7 +171,7 @@ impl SegmentShape for EulerSpirals {
     fn place(&self, start: Point, end: Point, ends: &SegmentEnds) -> Segment {
         match fit(ends.angles) {
             Ok(fit) => {
-                let chord = SpiralChord::new(fit.moments.integral());
+                let chord = SpiralChord::new(fit.moments.integral(), fit.spiral().k[0]);
                 Segment::spiral_along(start, end, fit.spiral(), chord)
             }
             Err(_) => Segment::line(start, end),

@@ -11,6 +11,7 @@ use super::catalog::{Claim, SplineInfo};
 use super::spiro::{PolynomialSpirals, Spiro};
 use crate::four_param::family::{Ends, FourParamFamily, Response};
 use crate::four_param::spline::ConstraintSpline;
+use crate::frame::chord_direction;
 use crate::numeric::block_tridiagonal::invert;
 use crate::numeric::dual::{Dual, Real};
 use crate::outline::Join;
@@ -183,6 +184,7 @@ fn unit_ends<T: Real, const N: usize>(
     let (x, y) = (end.x - start.x, end.y - start.y);
     let c = (x * x + y * y).sqrt();
     let psi = y.atan2(x);
+    let psi = psi + (chord_direction(psi.value(), k[0].value()) - psi.value());
     let ([k0, first0, second0], [k1, first1, second1]) = (start.curvature, end.curvature);
     let (c2, c3) = (c * c, c * c * c);
     let jets = [psi - start.theta, end.theta - psi, k0 * c, k1 * c];

@@ -119,7 +119,7 @@ impl FourParamFamily for PolynomialSpirals {
 
 /// The ends of the segment with these parameters and this spiro integral.
 fn ends(k: [f64; 4], integral: Complex64) -> Ends {
-    let SpiralChord { length: c, direction: psi } = SpiralChord::new(integral);
+    let SpiralChord { length: c, direction: psi } = SpiralChord::new(integral, k[0]);
     let [k0, k1, k2, k3] = k;
     // Of the angle from the middle, what is the same on both sides, and what isn't.
     let (even, odd) = (k0 / 2.0 + k2 / 48.0, k1 / 8.0 + k3 / 384.0);
