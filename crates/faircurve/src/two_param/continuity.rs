@@ -384,8 +384,11 @@ impl<'a> TangentSystem<'a> {
         /// Radians that all tangents keep within of the chords. Chosen: up to here, no contour of thousands is
         /// led to another curve, and one in a hundred is spared a search; at 2.2 rad some are led astray.
         const LITTLE: f64 = 1.3;
-        if self.nature.is_linear || self.nature.order != 1.0 {
-            return self.nature.is_linear;
+        /// Up to so many knots lie on a circle, whose tangents solve the run at once where arcs are segments.
+        const ON_A_CIRCLE: usize = 3;
+        let Nature { is_linear, order, .. } = self.nature;
+        if is_linear || order != 1.0 || self.knots.len() <= ON_A_CIRCLE {
+            return is_linear;
         }
         let straight = self.map.curvatures(ChordAngles::default(), &SegmentContext::UNIT);
         for i in 0..self.segments.len() {
