@@ -12,7 +12,7 @@ use super::constraint_table::{self as table, Condition, Quantity, SegmentConstra
 use super::family::{Ends, FourParamFamily, Response};
 use crate::frame::{direction, wrap_angle};
 use crate::numeric::block_tridiagonal::{BlockRow, BlockTridiagonal};
-use crate::numeric::newton::System;
+use crate::numeric::newton::{System, larger};
 use crate::outline::Join;
 use crate::plan::Run;
 use crate::tolerance::LOOP;
@@ -645,11 +645,6 @@ impl System<2> for RunSystem<'_> {
         self.is_near = size <= NEAR;
         size
     }
-}
-
-/// The larger number; not a number if either isn't.
-fn larger(a: f64, b: f64) -> f64 {
-    if a > b || a.is_nan() { a } else { b }
 }
 
 /// The equations of a knot at a window's rim: its own that concern the side within alone, filled up

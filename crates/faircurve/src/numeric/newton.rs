@@ -97,6 +97,11 @@ pub fn newton_while<const B: usize>(
     }
 }
 
+/// The larger number, as residuals add up; not a number if either isn't.
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
+    if a > b || a.is_nan() { a } else { b }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

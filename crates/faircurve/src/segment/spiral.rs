@@ -2,8 +2,7 @@
 
 use num_complex::Complex64;
 
-use crate::frame::ChordAngles;
-use crate::frame::chord_direction;
+use crate::frame::{ChordAngles, chord_direction};
 use crate::numeric::spiro_integral::{angle, spiro_integral, sub_parameters};
 use crate::numeric::trig::argument;
 

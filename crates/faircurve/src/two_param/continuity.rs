@@ -9,7 +9,7 @@ use super::shape::SegmentEnds;
 use super::tangents::{TangentRule, Tangents, context, ignored_curvature};
 use crate::frame::{ChordAngles, EndCurvature, along_circle, direction, turning, wrap_angle};
 use crate::numeric::block_tridiagonal::{BlockRow, BlockTridiagonal};
-use crate::numeric::newton::{Limits, System, newton};
+use crate::numeric::newton::{Limits, System, larger, newton};
 use crate::numeric::trig::argument;
 use crate::plan::Run;
 use crate::spline::{Adaptation, Effort, Stage};
@@ -97,7 +97,8 @@ impl<M: CurvatureMap> TangentRule for Continuity<M> {
 }
 
 impl<M: CurvatureMap> Continuity<M> {
-    /// The tangents found from those of another map for the same run, or from circles.
+    /// The tangents found from those of another map for the same run, or from the linearised equations or
+    /// circles.
     pub fn tangents_from(&self, run: &Run, start: Option<&[ChordAngles]>) -> Tangents {
         let mut system = TangentSystem::new(&self.map, self.end, run);
         let mut matrix = BlockTridiagonal::new(run.knots.len(), run.closed);
@@ -672,9 +673,7 @@ impl System<1> for TangentSystem<'_> {
             let knot = &mut self.knots[i];
             knot.mismatch = row.value.abs();
             knot.row = if knot.given_up { Row::UNASKED } else { row };
-            if knot.row.value.is_nan() || knot.row.value.abs() > residual {
-                residual = knot.row.value.abs();
-            }
+            residual = larger(residual, knot.row.value.abs());
         }
         residual
     }
