@@ -25,6 +25,53 @@ impl<const B: usize> BlockRow<B> {
     pub fn new(lower: Block<B>, diagonal: Block<B>, upper: Block<B>) -> Self {
         BlockRow { lower, diagonal, upper, fill: [[0.0; B]; B] }
     }
+
+    /// The row of a system whose unknowns come in the opposite order.
+    #[inline(always)]
+    fn turn_round(&mut self) {
+        std::mem::swap(&mut self.lower, &mut self.upper);
+    }
+
+    /// Puts in the unknown before, which a row with its right-hand side expresses by this one.
+    #[inline(always)]
+    fn subtract_outer(
+        &mut self,
+        right: &mut [f64; B],
+        (outer, right_outer): &(BlockRow<B>, [f64; B]),
+        cyclic: bool,
+    ) {
+        subtract_product(&mut self.diagonal, &self.lower, &outer.upper);
+        subtract(right, &times_vector(&self.lower, right_outer));
+        if cyclic {
+            subtract_product(&mut self.fill, &self.lower, &outer.fill);
+        }
+    }
+
+    /// Divides by the diagonal: the row then expresses its own unknown by the one after.
+    #[inline(always)]
+    fn normalize(&mut self, right: &mut [f64; B], cyclic: bool) {
+        let inverse = invert(&self.diagonal);
+        *right = times_vector(&inverse, right);
+        self.upper = product(&inverse, &self.upper);
+        if cyclic {
+            self.fill = product(&inverse, &self.fill);
+        }
+    }
+
+    /// Puts in the unknown after: its fill and its right-hand side, in place of which come those of this one.
+    #[inline(always)]
+    fn subtract_inner(
+        &mut self,
+        right: &mut [f64; B],
+        (fill_inner, right_inner): &mut (Block<B>, [f64; B]),
+        cyclic: bool,
+    ) {
+        subtract(right, &times_vector(&self.upper, right_inner));
+        if cyclic {
+            subtract_product(&mut self.fill, &self.upper, fill_inner);
+        }
+        (*fill_inner, *right_inner) = (self.fill, *right);
+    }
 }
 
 /// A system of rows. In a cyclic one the indices wrap around; in an open one the first row's `lower` and the
@@ -75,35 +122,46 @@ impl<const B: usize> BlockTridiagonal<B> {
         }
     }
 
-    /// Forward elimination and back substitution over the first `n` rows as an open system; their
-    /// `fill` is treated as further right-hand sides, if there is one.
+    /// Elimination and substitution over the first `n` rows as an open system; their `fill` is treated as further
+    /// right-hand sides, if there is one.
+    ///
+    /// From both ends to the middle and back: each step waits for the one before, so that two chains of them side
+    /// by side take little more time than one of half the length.
     fn solve_leading(&mut self, n: usize) {
         let cyclic = self.cyclic;
         let (rows, rights) = (&mut self.rows[..n], &mut self.right[..n]);
         let zero = [[0.0; B]; B];
         (rows[0].lower, rows[n - 1].upper) = (zero, zero);
-        let (mut before, mut right_before) = (BlockRow::new(zero, zero, zero), [0.0; B]);
-        for (row, right) in rows.iter_mut().zip(rights.iter_mut()) {
-            subtract_product(&mut row.diagonal, &row.lower, &before.upper);
-            subtract(right, &times_vector(&row.lower, &right_before));
-            if cyclic {
-                subtract_product(&mut row.fill, &row.lower, &before.fill);
+        let middle = n / 2;
+        let (head, tail) = rows.split_at_mut(middle + 1);
+        let (right_head, right_tail) = rights.split_at_mut(middle + 1);
+        let nothing = (BlockRow::new(zero, zero, zero), [0.0; B]);
+        let (mut before, mut after) = (nothing, nothing);
+        let mut from_end = tail.iter_mut().zip(right_tail.iter_mut()).rev();
+        for (i, (row, right)) in head.iter_mut().zip(right_head.iter_mut()).enumerate() {
+            if let Some((row, right)) = from_end.next() {
+                row.turn_round();
+                row.subtract_outer(right, &after, cyclic);
+                row.normalize(right, cyclic);
+                after = (*row, *right);
             }
-            let inverse = invert(&row.diagonal);
-            *right = times_vector(&inverse, right);
-            row.upper = product(&inverse, &row.upper);
-            if cyclic {
-                row.fill = product(&inverse, &row.fill);
+            row.subtract_outer(right, &before, cyclic);
+            if i == middle {
+                row.turn_round();
+                row.subtract_outer(right, &after, cyclic);
             }
-            (before, right_before) = (*row, *right);
+            row.normalize(right, cyclic);
+            before = (*row, *right);
         }
-        let (mut fill_after, mut right_after) = (zero, [0.0; B]);
-        for (row, right) in rows.iter_mut().zip(rights.iter_mut()).rev() {
-            subtract(right, &times_vector(&row.upper, &right_after));
-            if cyclic {
-                subtract_product(&mut row.fill, &row.upper, &fill_after);
+        let (row, right) = before;
+        let (mut before, mut after) = ((row.fill, right), (row.fill, right));
+        let mut to_end = tail.iter_mut().zip(right_tail.iter_mut());
+        let towards_start = head.iter_mut().zip(right_head.iter_mut()).rev().skip(1);
+        for (row, right) in towards_start {
+            row.subtract_inner(right, &mut after, cyclic);
+            if let Some((row, right)) = to_end.next() {
+                row.subtract_inner(right, &mut before, cyclic);
             }
-            (fill_after, right_after) = (row.fill, *right);
         }
     }
 
@@ -204,6 +262,7 @@ pub(crate) fn invert<const B: usize>(matrix: &Block<B>) -> Block<B> {
 }
 
 /// The inverse by Gauss–Jordan elimination with partial pivoting.
+#[inline(never)] // rare
 fn eliminate<const B: usize>(matrix: &Block<B>) -> Block<B> {
     /// Stands in for a pivot of zero, relative to the block's largest entry.
     const TINY_PIVOT: f64 = 1e-30;
