@@ -7,6 +7,7 @@
 //! [`Plan::assemble`] puts the solved runs back together in the input's numbering.
 
 use std::cmp::Ordering;
+use std::f64::consts::PI;
 use std::fmt;
 
 use kurbo::{Point, Vec2};
@@ -75,7 +76,8 @@ impl Run {
     pub fn stretch(&self, from: usize, to: usize) -> Run {
         let n = self.knots.len();
         let count = if to > from { to - from } else { to + n - from };
-        let mut knots: Vec<RunKnot> = (0..=count).map(|i| self.knots[(from + i) % n]).collect();
+        let mut knots: Vec<RunKnot> =
+            (0..=count).map(|i| self.knots[around(from + i, n)]).collect();
         (knots[0].turn, knots[count].turn) = (0.0, 0.0);
         Run { knots, closed: false, unit: self.unit }
     }
@@ -247,7 +249,7 @@ impl RunPlace {
     /// Which of `nodes` nodes knot `i` of the run is.
     fn node_of(&self, run: &Run, i: usize, nodes: usize) -> usize {
         let along = if self.reversed { run.knots.len() - 1 - i } else { i };
-        (self.first_node + along) % nodes
+        around(self.first_node + along, nodes)
     }
 
     /// The node that segment `i` of the run leaves, in the contour's direction.
@@ -257,9 +259,9 @@ impl RunPlace {
             (false, _) => i,
             (true, false) => count - 1 - i,
             // Backwards from the last knot, the closing segment comes last in both.
-            (true, true) => (2 * count - 2 - i) % count,
+            (true, true) => around(2 * count - 2 - i, count),
         };
-        (self.first_node + along) % nodes
+        around(self.first_node + along, nodes)
     }
 }
 
@@ -346,7 +348,7 @@ impl Plan {
     fn find_straight_segments(&mut self) {
         let n = self.nodes.len();
         self.straight = (0..self.node_segments())
-            .map(|i| self.is_terminal(i, true) && self.is_terminal((i + 1) % n, false))
+            .map(|i| self.is_terminal(i, true) && self.is_terminal(around(i + 1, n), false))
             .collect();
     }
 
@@ -377,14 +379,14 @@ impl Plan {
             }
             let count = if to > from { to - from } else { to + n - from };
             let mut knots = vec![self.end_knot(from, true)];
-            knots.extend((1..count).map(|i| self.interior_knot((from + i) % n)));
+            knots.extend((1..count).map(|i| self.interior_knot(around(from + i, n))));
             knots.push(self.end_knot(to, false));
             stretches.push((from, Run { knots, closed: false, unit: self.unit }.measured()));
         }
         for (first_node, run) in stretches {
             if is_straight(&run) {
                 for i in 0..run.segment_count() {
-                    self.straight[(first_node + i) % n] = true;
+                    self.straight[around(first_node + i, n)] = true;
                 }
                 continue;
             }
@@ -417,9 +419,9 @@ impl Plan {
         } else {
             (at.tangent_in, at.curvature_in)
         };
-        let beyond = if outgoing { (node + segments - 1) % segments } else { node };
+        let beyond = if outgoing { around(node + segments - 1, segments) } else { node };
         if !self.is_open_end(node) && !at.is_corner() && self.straight[beyond] {
-            let line = self.nodes[(beyond + 1) % n].point - self.nodes[beyond].point;
+            let line = self.nodes[around(beyond + 1, n)].point - self.nodes[beyond].point;
             tangent = Some(direction(line));
             if at.join != Join::G1 {
                 curvature = Some(0.0);
@@ -455,7 +457,7 @@ impl Plan {
     pub fn assemble(&self, solved: Vec<RunSolution>) -> Solution {
         let (n, segments) = (self.nodes.len(), self.node_segments());
         let mut report = SolveReport { adapted: self.adapted.clone(), ..SolveReport::default() };
-        let mut placed: Vec<Option<Segment>> = vec![None; segments];
+        let mut placed: Vec<Option<Segment>> = (0..segments).map(|_| None).collect();
         for ((place, run), solution) in self.places.iter().zip(&self.runs).zip(solved) {
             let node_of = |i: usize| place.node_of(run, i, n);
             let segment_of = |i: usize| place.segment_of(run, i, n);
@@ -464,9 +466,10 @@ impl Plan {
                 if place.reversed {
                     segment = segment.reversed();
                 }
-                let (start, end) = self.ends_of(segment_of(i));
+                let node = segment_of(i);
+                let (start, end) = self.ends_of(node);
                 segment.move_to(start, end, self.unit);
-                placed[segment_of(i)] = Some(segment);
+                placed[node] = Some(segment);
             }
             let input_place = |place: Place| match place {
                 Place::Knot(i) => Place::Knot(self.nodes[node_of(i)].first),
@@ -586,15 +589,15 @@ impl Plan {
                 curvature_in: arriving.map(|end| end.curvature),
                 curvature_out: leaving.map(|end| end.curvature),
             };
-            let members = (node.last + count - node.first) % count;
+            let members = around(node.last + count - node.first, count);
             knots.push(solved);
             for i in 1..=members {
-                let point = self.points[(node.first + i) % count];
+                let point = self.points[around(node.first + i, count)];
                 knots.push(SolvedKnot { point, ..solved });
             }
         }
         // In order but for those at the end that coincide with the first.
-        knots.rotate_left((count - self.nodes[0].first) % count);
+        knots.rotate_left(around(count - self.nodes[0].first, count));
         knots
     }
 }
@@ -798,7 +801,7 @@ fn settle_given(
     let n = nodes.len();
     for i in 0..n {
         let is_end = !contour.closed && (i == 0 || i + 1 == n);
-        let (before, after) = (nodes[(i + n - 1) % n].point, nodes[(i + 1) % n].point);
+        let (before, after) = (nodes[around(i + n - 1, n)].point, nodes[around(i + 1, n)].point);
         let node = &mut nodes[i];
         if is_end || node.is_corner() || n == 1 {
             continue;
@@ -868,24 +871,10 @@ fn is_straight(run: &Run) -> bool {
 /// it is reversed.
 fn canonical(run: Run, first_node: usize, nodes: usize) -> (Run, usize, bool) {
     let n = run.knots.len();
-    let (size, chords) = coarse_chords(&run);
+    let [forward, backward] = marks(&run);
     // Knot i of the way back is knot n − 1 − i.
-    let backward_knot = |i: usize| reversed_knot(run.knots[n - 1 - i]);
-    let backward_chord = |i: usize| match n - 1 - i {
-        0 => -run.chord(if run.closed { n - 1 } else { 0 }),
-        knot => -run.chord(knot - 1),
-    };
-    let last = run.segment_count() - 1;
-    let forward: Vec<Mark> =
-        (0..n).map(|i| mark(&run.knots[i], size, chords[i], || run.chord(i.min(last)))).collect();
-    let backward: Vec<Mark> = (0..n)
-        .map(|i| {
-            let chord = chords[if i + 1 < n { n - 2 - i } else { n - 1 }];
-            mark(&backward_knot(i), size, chord, || backward_chord(i))
-        })
-        .collect();
-    let forward_place = |i: usize| <(f64, f64)>::from(run.knots[i % n].point);
-    let backward_place = |i: usize| forward_place(2 * n - 1 - i % n);
+    let forward_place = |i: usize| <(f64, f64)>::from(run.knots[around(i, n)].point);
+    let backward_place = |i: usize| forward_place(n - 1 - around(i, n));
     let a = if run.closed { least_start(&forward, forward_place) } else { 0 };
     let b = if run.closed { least_start(&backward, backward_place) } else { 0 };
     let order = from(&forward, a).cmp(from(&backward, b)).then_with(|| {
@@ -895,47 +884,87 @@ fn canonical(run: Run, first_node: usize, nodes: usize) -> (Run, usize, bool) {
     let keep = order.is_le();
     let knots = match keep {
         true => from(&run.knots, a).copied().collect(),
-        false => (0..n).map(|i| backward_knot((b + i) % n)).collect(),
+        false => (0..n).map(|i| reversed_knot(run.knots[n - 1 - around(b + i, n)])).collect(),
     };
     // Knot b of the reversed list is knot n − 1 − b; the walk ends at the one after it.
-    let first = if keep { a } else { (n - b) % n };
-    (Run { knots, closed: run.closed, unit: run.unit }, (first_node + first) % nodes, !keep)
+    let first = if keep { a } else { around(n - b, n) };
+    (Run { knots, closed: run.closed, unit: run.unit }, around(first_node + first, nodes), !keep)
 }
 
 /// Where the least rotation of a closed run's marks starts. A symmetric run has several such starts; any will do, so
 /// long as it is the same one: that of the least place.
 fn least_start(marks: &[Mark], place: impl Fn(usize) -> (f64, f64)) -> usize {
     let n = marks.len();
+    let (mut least, mut is_alone) = (0, true);
+    for i in 1..n {
+        match marks[i].cmp(&marks[least]) {
+            Ordering::Less => (least, is_alone) = (i, true),
+            Ordering::Equal => is_alone = false,
+            Ordering::Greater => {}
+        }
+    }
+    if is_alone {
+        return least;
+    }
     let (start, period) = least_rotation(marks);
     (0..n / period)
-        .map(|i| (start + i * period) % n)
+        .map(|i| around(start + i * period, n))
         .fold(start, |best, i| if place(i) < place(best) { i } else { best })
 }
 
-/// What a knot looks like to someone who travels the run: its join, its turning angle without sign,
-/// the chord that follows, and what is given there; the numbers rounded, so that rounding errors
-/// don't tell knots apart that are alike.
-type Mark = (Join, i64, i64, Option<i64>, Option<i64>);
+/// What a knot looks like to someone who travels the run; the numbers rounded and without sign, so that neither
+/// rounding errors nor mirrors tell knots apart that are alike.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Mark {
+    join: Join,
+    turn: i64,
+    /// The chord that follows, over the longest one; 0 after the last of an open run.
+    chord: i64,
+    /// The tangent from that chord; less than any if none is given.
+    tangent: i64,
+    /// The curvature by the longest chord; less than any if none is given.
+    curvature: i64,
+}
 
 /// Alike to a billionth of a radian or of the run's size.
 fn coarse(number: f64) -> i64 {
     (number.abs() * 1e9 + 0.5) as i64
 }
 
-/// The longest chord, and over it that which follows each knot; 0 after the last of an open run.
-fn coarse_chords(run: &Run) -> (f64, Vec<i64>) {
-    let lengths: Vec<f64> = (0..run.segment_count()).map(|i| run.chord(i).hypot()).collect();
+/// The marks of a run's knots, forwards and backwards.
+fn marks(run: &Run) -> [Vec<Mark>; 2] {
+    const NONE: i64 = -1;
+    let n = run.knots.len();
+    let last = run.segment_count() - 1;
+    let lengths: Vec<f64> = (0..=last).map(|i| run.chord(i).hypot()).collect();
     let size = lengths.iter().copied().fold(0.0, f64::max);
-    let end = (!run.closed).then_some(0);
-    (size, lengths.into_iter().map(|length| coarse(length / size)).chain(end).collect())
+    let chord = |i: usize| lengths.get(i).map_or(0, |length| coarse(length / size));
+    let off = |tangent: f64, chord: Vec2| coarse(wrap_angle(tangent - direction(chord)));
+    let forward: Vec<Mark> = (run.knots.iter().enumerate())
+        .map(|(i, knot)| Mark {
+            join: knot.join,
+            turn: coarse(knot.turn),
+            chord: chord(i),
+            tangent: knot.tangent.map_or(NONE, |tangent| off(tangent, run.chord(i.min(last)))),
+            curvature: knot.curvature.map_or(NONE, |curvature| coarse(curvature * size)),
+        })
+        .collect();
+    let backward = (0..n).rev().map(|i| {
+        // The chord that leads to a knot follows it on the way back.
+        let to = if i > 0 { i - 1 } else { n - 1 };
+        let tangent = run.knots[i].tangent.map_or(NONE, |tangent| {
+            off(wrap_angle(tangent + PI), -run.chord(if to > last { 0 } else { to }))
+        });
+        let chord = forward[to].chord;
+        Mark { join: forward[i].join.reversed(), chord, tangent, ..forward[i] }
+    });
+    let backward = backward.collect();
+    [forward, backward]
 }
 
-/// The mark of a knot, with that of the chord that follows; where there is a tangent, that chord itself is asked for.
-fn mark(knot: &RunKnot, size: f64, length: i64, chord: impl Fn() -> Vec2) -> Mark {
-    let off = |tangent| wrap_angle(tangent - direction(chord()));
-    let tangent = knot.tangent.map(|tangent| coarse(off(tangent)));
-    let curvature = knot.curvature.map(|curvature| coarse(curvature * size));
-    (knot.join, coarse(knot.turn), length, tangent, curvature)
+/// The place `index` of a list of `count`, counted around its end at most once.
+fn around(index: usize, count: usize) -> usize {
+    if index < count { index } else { index - count }
 }
 
 /// The list from `start` on, and around.
@@ -947,7 +976,7 @@ fn from<T>(list: &[T], start: usize) -> impl Iterator<Item = &T> {
 /// repeats, in linear time: two candidates race, and the loser skips all that it has compared.
 fn least_rotation<T: Ord>(list: &[T]) -> (usize, usize) {
     let n = list.len();
-    let at = |place: usize| &list[if place < n { place } else { place - n }];
+    let at = |place: usize| &list[around(place, n)];
     let (mut i, mut j, mut same) = (0, 1, 0);
     while i < n && j < n && same < n {
         match at(i + same).cmp(at(j + same)) {
@@ -969,9 +998,9 @@ fn least_rotation<T: Ord>(list: &[T]) -> (usize, usize) {
 
 fn reversed_knot(knot: RunKnot) -> RunKnot {
     RunKnot {
-        turn: if knot.turn == std::f64::consts::PI { knot.turn } else { -knot.turn },
+        turn: if knot.turn == PI { knot.turn } else { -knot.turn },
         join: knot.join.reversed(),
-        tangent: knot.tangent.map(|t| wrap_angle(t + std::f64::consts::PI)),
+        tangent: knot.tangent.map(|t| wrap_angle(t + PI)),
         curvature: knot.curvature.map(|k| -k),
         tension: [knot.tension[1], knot.tension[0]],
         ..knot
