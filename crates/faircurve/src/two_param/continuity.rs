@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use num_complex::Complex64;
 
-use super::curvature_map::{CurvatureMap, EndCurvatures, SegmentContext};
+use super::curvature_map::{CurvatureMap, EndCurvatures, MappedSegment, SegmentContext};
 use super::shape::SegmentEnds;
 use super::tangents::{TangentRule, Tangents, context, ignored_curvature};
 use crate::frame::{ChordAngles, EndCurvature, along_circle, direction, turning, wrap_angle};
@@ -155,6 +155,44 @@ impl Nature {
     fn of(map: &dyn CurvatureMap) -> Nature {
         Nature { is_linear: map.is_linear(), order: map.order(), limit: map.limit() }
     }
+
+    /// The equation that curvature is continuous where two segments, with these responses, meet.
+    #[inline(always)]
+    fn continuity(&self, [before, after]: [&EndCurvatures; 2], scales: [f64; 2], next: f64) -> Row {
+        // Both sides take the same steps side by side: two lanes of one register.
+        let scaled = |sides: [EndCurvature; 2]| [0, 1].map(|i| Turned::new(sides[i], scales[i]));
+        let sides = scaled([before.value[1], after.value[0]]);
+        let reciprocals = [0, 1].map(|i| 1.0 / sides[i].squared());
+        let angles_by = |changes: [EndCurvature; 2]| {
+            let changes = scaled(changes);
+            [0, 1].map(|i| sides[i].cross(&changes[i]) * reciprocals[i])
+        };
+        let own = angles_by([before.by_angle[1][1], after.by_angle[0][0]]);
+        let others = angles_by([before.by_angle[1][0], after.by_angle[0][1]]);
+        let (value, [dv, dw]) = match self.order_at(before, after) {
+            1.0 => (sides[0].angle_to(&sides[1]), [1.0; 2]),
+            order => sides[0].straightened_angle_to(&sides[1], order),
+        };
+        Row {
+            value,
+            lower: -others[0] * dv,
+            diagonal: own[0] * dv + own[1] * dw,
+            upper: others[1] * dw * next,
+        }
+    }
+
+    /// The order of the roots to compare where these segments meet. Roots of an order above 1 would be
+    /// steep where a whole segment is nearly straight, so that they are for knots that are near an
+    /// inflection of both segments.
+    fn order_at(&self, before: &EndCurvatures, after: &EndCurvatures) -> f64 {
+        /// An end's curvature over that of the other end, below which it is near an inflection.
+        const NEAR: f64 = 0.3;
+        let is_near = |response: &EndCurvatures, end: usize| {
+            response.value[end].num.abs() < NEAR * response.value[1 - end].num.abs()
+        };
+        let is_useful = self.order <= 1.0 || (is_near(before, 1) && is_near(after, 0));
+        if is_useful { self.order } else { 1.0 }
+    }
 }
 
 /// A knot of the system.
@@ -176,29 +214,13 @@ struct SystemKnot {
     given_up: bool,
 }
 
-/// A segment of the system.
-#[derive(Clone, Copy, Debug)]
-struct SystemSegment {
-    context: SegmentContext,
-    /// The angles that the response is for; not numbers before there is one.
-    answered: ChordAngles,
-    response: EndCurvatures,
-}
-
-impl SystemSegment {
-    fn new(context: SegmentContext) -> Self {
-        let answered = ChordAngles::new(f64::NAN, f64::NAN);
-        SystemSegment { context, answered, response: EndCurvatures::ZERO }
-    }
-}
-
 /// The tangents of a run and the equations for them.
 struct TangentSystem<'a> {
     map: &'a dyn CurvatureMap,
     nature: Nature,
     closed: bool,
     knots: Vec<SystemKnot>,
-    segments: Vec<SystemSegment>,
+    segments: Vec<MappedSegment>,
     /// Whether the equations have been evaluated.
     has_run: bool,
     adapted: Vec<Adaptation>,
@@ -253,7 +275,7 @@ impl<'a> TangentSystem<'a> {
             nature: Nature::of(map),
             closed: run.closed,
             knots,
-            segments: (0..segments).map(|i| SystemSegment::new(context(run, i))).collect(),
+            segments: (0..segments).map(|i| MappedSegment::new(context(run, i))).collect(),
             has_run: false,
             adapted,
         };
@@ -263,7 +285,7 @@ impl<'a> TangentSystem<'a> {
 
     /// Fills in the knots' scales.
     fn scale(&mut self) {
-        let chord = |segment: &SystemSegment| segment.context.chord;
+        let chord = |segment: &MappedSegment| segment.context.chord;
         let mut before = if self.closed { self.segments.last().map(chord) } else { None };
         for (i, knot) in self.knots.iter_mut().enumerate() {
             let after = self.segments.get(i).map(chord);
@@ -306,9 +328,9 @@ impl<'a> TangentSystem<'a> {
         };
         let chords = self.segments.iter().map(|segment| segment.context.chord);
         let longest = chords.fold(0.0, f64::max);
-        let segment = |segment: &SystemSegment| {
+        let segment = |segment: &MappedSegment| {
             let chord = floating(segment.context.chord / longest);
-            SystemSegment::new(SegmentContext { chord, ..segment.context })
+            MappedSegment::new(SegmentContext { chord, ..segment.context })
         };
         let knot = |knot: &SystemKnot| SystemKnot {
             turn: fixed(knot.turn),
@@ -398,9 +420,7 @@ impl<'a> TangentSystem<'a> {
             *response = straight;
             response.turn([theta0, theta1]);
         }
-        for i in 0..self.knots.len() {
-            self.knots[i].row = self.row(i, true);
-        }
+        self.write_rows(true);
         self.linearize(matrix);
         matrix.solve();
         let last = self.knots.len() - 1;
@@ -453,15 +473,15 @@ impl<'a> TangentSystem<'a> {
         for index in 0..self.segments.len() {
             let angles = self.angles(index);
             let segment = &mut self.segments[index];
-            let known = segment.answered;
+            let known = segment.angles;
             let change = [angles.theta0 - known.theta0, angles.theta1 - known.theta1];
-            if change.iter().all(|change| change.abs() <= most) {
+            segment.is_asked = !change.iter().all(|change| change.abs() <= most);
+            if !segment.is_asked {
                 segment.response.turn(change);
-            } else {
-                segment.response = self.map.curvatures(angles, &segment.context);
             }
-            segment.answered = angles;
+            segment.angles = angles;
         }
+        self.map.answer(&mut self.segments);
         self.has_run = true;
     }
 
@@ -500,76 +520,48 @@ impl Row {
 }
 
 impl TangentSystem<'_> {
-    /// The equation of knot `i`. Its unknown is `theta0` of the segment after it, which is the turn
+    /// Fills in the knots' equations. A knot's unknown is `theta0` of the segment after it, which is the turn
     /// less `theta1` of the one before; at the end of an open run, `theta1` itself.
-    fn row(&self, i: usize, is_linear: bool) -> Row {
+    fn write_rows(&mut self, is_linear: bool) {
         let n = self.knots.len();
-        let left = if i > 0 { Some(i - 1) } else { self.closed.then_some(n - 1) };
-        let right = if i + 1 < n || self.closed { Some(i) } else { None };
-        // How theta1 of the segment after responds to the unknown of the next knot.
-        let next = if !self.closed && i + 2 == n { 1.0 } else { -1.0 };
-        match (&self.knots[i].equation, left, right) {
-            (Equation::Continuous, Some(l), Some(r)) => {
-                let (before, after) = (&self.segments[l], &self.segments[r]);
-                if is_linear {
+        let mut before = if self.closed { self.segments.last() } else { None };
+        for (i, knot) in self.knots.iter_mut().enumerate() {
+            let after = self.segments.get(i);
+            if let (Equation::Continuous, Some(before), Some(after)) =
+                (knot.equation, before, after)
+            {
+                // How theta1 of the segment after responds to the unknown of the next knot.
+                let next = if !self.closed && i + 2 == n { 1.0 } else { -1.0 };
+                knot.row = if is_linear {
                     linear_continuity(before, after, next)
                 } else {
-                    let (before, after) = (&before.response, &after.response);
-                    self.continuity(before, after, self.knots[i].scales, next)
-                }
+                    self.nature.continuity([&before.response, &after.response], knot.scales, next)
+                };
             }
-            (Equation::Direction(angle), _, _) => {
-                Row { value: self.knots[i].tangent - angle, ..Row::UNASKED }
-            }
-            (Equation::End(end), _, Some(r)) => {
-                let (value, [by0, by1]) = self.natural_end(*end, r, 0);
-                Row { value, diagonal: by0, upper: by1 * next, lower: 0.0 }
-            }
-            (Equation::End(end), Some(l), None) => {
-                let (value, [by0, by1]) = self.natural_end(*end, l, 1);
-                Row { value, diagonal: by1, lower: by0, upper: 0.0 }
-            }
-            (Equation::Curvature(curvature), _, Some(r)) => {
-                let (value, [by0, by1]) = self.end_curvature(r, 0, *curvature);
-                Row { value, diagonal: by0, upper: by1 * next, lower: 0.0 }
-            }
-            (Equation::Curvature(curvature), Some(l), None) => {
-                let (value, [by0, by1]) = self.end_curvature(l, 1, *curvature);
-                Row { value, diagonal: by1, lower: by0, upper: 0.0 }
-            }
-            // A knot without a segment, or continuity at an end: nothing to ask.
-            _ => Row::UNASKED,
+            before = after;
+        }
+        if !self.closed {
+            (self.knots[0].row, self.knots[n - 1].row) = (self.end_row(0), self.end_row(1));
         }
     }
 
-    /// The equation that curvature is continuous where two segments meet.
-    fn continuity(
-        &self,
-        before: &EndCurvatures,
-        after: &EndCurvatures,
-        scales: [f64; 2],
-        next: f64,
-    ) -> Row {
-        let v = Turned::new(before.value[1], scales[0]);
-        let w = Turned::new(after.value[0], scales[1]);
-        let [l0, l1] = v.angles_by(before.by_angle[1], scales[0]);
-        let [r0, r1] = w.angles_by(after.by_angle[0], scales[1]);
-        let (value, [dv, dw]) = v.straightened_angle_to(&w, self.order_at(before, after));
-        Row { value, lower: -l0 * dv, diagonal: l1 * dv + r0 * dw, upper: r1 * dw * next }
-    }
-
-    /// The order of the roots to compare where these segments meet. Roots of an order above 1 would be
-    /// steep where a whole segment is nearly straight, so that they are for knots that are near an
-    /// inflection of both segments.
-    fn order_at(&self, before: &EndCurvatures, after: &EndCurvatures) -> f64 {
-        /// An end's curvature over that of the other end, below which it is near an inflection.
-        const NEAR: f64 = 0.3;
-        let order = self.nature.order;
-        let is_near = |response: &EndCurvatures, end: usize| {
-            response.value[end].num.abs() < NEAR * response.value[1 - end].num.abs()
+    /// The equation of the first knot (0) or the last one (1) of an open run.
+    fn end_row(&self, end: usize) -> Row {
+        let (knot, segment) = [(0, 0), (self.knots.len() - 1, self.segments.len() - 1)][end];
+        let (value, [by0, by1]) = match self.knots[knot].equation {
+            Equation::Continuous => return Row::UNASKED,
+            Equation::Direction(angle) => {
+                return Row { value: self.knots[knot].tangent - angle, ..Row::UNASKED };
+            }
+            Equation::End(natural) => self.natural_end(natural, segment, end),
+            Equation::Curvature(curvature) => self.end_curvature(segment, end, curvature),
         };
-        let is_useful = order <= 1.0 || (is_near(before, 1) && is_near(after, 0));
-        if is_useful { order } else { 1.0 }
+        if end == 0 {
+            let next = if self.segments.len() == 1 { 1.0 } else { -1.0 };
+            Row { value, diagonal: by0, upper: by1 * next, lower: 0.0 }
+        } else {
+            Row { value, diagonal: by1, lower: by0, upper: 0.0 }
+        }
     }
 
     /// How far a free end at the start (0) or end (1) of a segment is from what must hold there, and
@@ -640,17 +632,17 @@ impl TangentSystem<'_> {
     /// How far the curvature at the start (0) or end (1) of a segment is from the one wanted, in the
     /// run's units, and how that responds to the segment's angles.
     fn end_curvature(&self, segment: usize, end: usize, wanted: f64) -> (f64, [f64; 2]) {
-        let SystemSegment { context, response, .. } = &self.segments[segment];
+        let MappedSegment { context, response, .. } = &self.segments[segment];
         let own = Turned::new(response.value[end], 1.0);
         let wanted = Turned { num: wanted * context.chord, den: 1.0 };
-        (wanted.angle_to(&own), own.angles_by(response.by_angle[end], 1.0))
+        (wanted.angle_to(&own), own.angles_by(response.by_angle[end]))
     }
 }
 
 /// The equation that curvature is continuous where two segments of a linear map meet: κ/c on both sides,
 /// over the sum's response to the knot's own angle, so that the equation is in radians; the chords first over
 /// the longer one, which keeps their products in the range of numbers.
-fn linear_continuity(before: &SystemSegment, after: &SystemSegment, next: f64) -> Row {
+fn linear_continuity(before: &MappedSegment, after: &MappedSegment, next: f64) -> Row {
     let (cl, cr) = (before.context.chord, after.context.chord);
     let (left, right) = (&before.response, &after.response);
     let (wl, wr) = (cr / cl.max(cr), cl / cl.max(cr));
@@ -667,12 +659,13 @@ fn linear_continuity(before: &SystemSegment, after: &SystemSegment, next: f64) -
 impl System<1> for TangentSystem<'_> {
     fn residual(&mut self) -> f64 {
         self.evaluate();
+        self.write_rows(self.nature.is_linear);
         let mut residual = 0.0f64;
-        for i in 0..self.knots.len() {
-            let row = self.row(i, self.nature.is_linear);
-            let knot = &mut self.knots[i];
-            knot.mismatch = row.value.abs();
-            knot.row = if knot.given_up { Row::UNASKED } else { row };
+        for knot in &mut self.knots {
+            knot.mismatch = knot.row.value.abs();
+            if knot.given_up {
+                knot.row = Row::UNASKED;
+            }
             residual = larger(residual, knot.row.value.abs());
         }
         residual
@@ -716,10 +709,7 @@ impl Turned {
     /// The angle to turn by to come to the other vector: zero where curvatures agree, whatever
     /// their size, and half a turn off where a curve would arrive forwards and leave backwards.
     fn angle_to(&self, other: &Turned) -> f64 {
-        argument(Complex64::new(
-            self.den * other.den + self.num * other.num,
-            self.den * other.num - self.num * other.den,
-        ))
+        argument(Complex64::new(self.den * other.den + self.num * other.num, self.cross(other)))
     }
 
     /// The same for curvatures that leave zero with some power: the angle between their roots of
@@ -728,17 +718,14 @@ impl Turned {
     ///
     /// Roots are taken of curvature over a common size, which is held while differentiating: where
     /// curvatures agree, it doesn't matter.
+    #[inline(never)]
     fn straightened_angle_to(&self, other: &Turned, order: f64) -> (f64, [f64; 2]) {
         /// Curvatures over their common size count as no smaller in derivatives.
         const SMALLEST: f64 = 1e-200;
-        let as_it_is = || (self.angle_to(other), [1.0; 2]);
-        if order == 1.0 {
-            return as_it_is();
-        }
         let curvatures = [self.num / self.den, other.num / other.den];
         let size = curvatures[0].abs().max(curvatures[1].abs());
         if !(size > 0.0 && size.is_finite()) {
-            return as_it_is();
+            return (self.angle_to(other), [1.0; 2]);
         }
         let roots = curvatures.map(|k| size * (k.abs() / size).powf(1.0 / order).copysign(k));
         let more = [0, 1].map(|i| {
@@ -751,12 +738,17 @@ impl Turned {
     }
 
     /// How the vector's angle changes when the curvature it stands for changes by either of these.
-    fn angles_by(&self, changes: [EndCurvature; 2], scale: f64) -> [f64; 2] {
-        let squared = self.den * self.den + self.num * self.num;
-        let reciprocal = 1.0 / squared.max(f64::MIN_POSITIVE);
-        changes.map(|change| {
-            let Turned { num, den } = Turned::new(change, scale);
-            (self.den * num - self.num * den) * reciprocal
-        })
+    fn angles_by(&self, changes: [EndCurvature; 2]) -> [f64; 2] {
+        let reciprocal = 1.0 / self.squared();
+        changes.map(|change| self.cross(&Turned::new(change, 1.0)) * reciprocal)
+    }
+
+    /// The square of the vector's length, above 0.
+    fn squared(&self) -> f64 {
+        (self.den * self.den + self.num * self.num).max(f64::MIN_POSITIVE)
+    }
+
+    fn cross(&self, other: &Turned) -> f64 {
+        self.den * other.num - self.num * other.den
     }
 }

@@ -49,10 +49,38 @@ impl EndCurvatures {
     }
 }
 
+/// A segment, and what its map says of it.
+#[derive(Clone, Copy, Debug)]
+pub struct MappedSegment {
+    /// What the segment knows besides its tangents.
+    pub context: SegmentContext,
+    /// The angles that the response is for; not numbers before there is one.
+    pub angles: ChordAngles,
+    /// The end curvatures.
+    pub response: EndCurvatures,
+    /// Whether the response has yet to be found.
+    pub is_asked: bool,
+}
+
+impl MappedSegment {
+    /// A segment of which nothing is known but its context.
+    pub(crate) fn new(context: SegmentContext) -> Self {
+        let angles = ChordAngles::new(f64::NAN, f64::NAN);
+        MappedSegment { context, angles, response: EndCurvatures::ZERO, is_asked: false }
+    }
+}
+
 /// From end tangents to end curvatures.
 pub trait CurvatureMap: fmt::Debug + Send + Sync {
     /// End curvatures for angles within ±[`limit`](Self::limit); finite numbers always.
     fn curvatures(&self, angles: ChordAngles, context: &SegmentContext) -> EndCurvatures;
+
+    /// Answers for all segments that are asked: one call of a map that isn't known by type, not one each.
+    fn answer(&self, segments: &mut [MappedSegment]) {
+        for segment in segments.iter_mut().filter(|segment| segment.is_asked) {
+            segment.response = self.curvatures(segment.angles, &segment.context);
+        }
+    }
 
     /// The largest magnitude of either angle that the map can deal with; infinite if it is defined
     /// everywhere.
