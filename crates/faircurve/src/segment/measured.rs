@@ -25,11 +25,20 @@ pub trait ParametricCurve: fmt::Debug + Send + Sync {
     /// The piece between two parameters as a Bézier, if it is one exactly.
     fn bezier(&self, from: f64, to: f64) -> Option<PathSeg>;
 
-    /// The whole length of a gentle curve: one of which it is known without a try that it turns by less
-    /// than a radian and that sixteen nodes measure it, or any part of it, to rounding. `None` for others.
-    fn gentle_length(&self) -> Option<f64> {
+    /// The whole of a gentle curve: one of which it is known without a try that it turns by less than a
+    /// radian and that sixteen nodes measure it, or any part of it, to rounding. `None` for others.
+    fn gentle(&self) -> Option<Gentle> {
         None
     }
+}
+
+/// What holds of a gentle curve as a whole: see [`ParametricCurve::gentle`].
+#[derive(Clone, Copy, Debug)]
+pub struct Gentle {
+    /// Arc length.
+    pub length: f64,
+    /// Directions at both ends, in radians.
+    pub directions: [f64; 2],
 }
 
 /// A [`ParametricCurve`] with its arc length measured to about 1e-15.
@@ -66,18 +75,13 @@ impl<C: ParametricCurve> Measured<C> {
     /// Measures a curve. Takes sixteen evaluations of the velocity where it is gentle, some 50 where that
     /// isn't known but found.
     pub fn new(curve: C) -> Self {
-        match curve.gentle_length() {
-            Some(length) => Measured::gentle(curve, length.max(1.0)),
+        match curve.gentle() {
+            // A single panel.
+            Some(Gentle { length, directions }) => {
+                Measured::with(curve, directions, length.max(1.0))
+            }
             None => Measured::by_panels(curve),
         }
-    }
-
-    /// A single panel.
-    fn gentle(curve: C, length: f64) -> Self {
-        let (first, last) = (curve.velocity(0.0), curve.velocity(1.0));
-        let start = argument(first);
-        let directions = [start, start + argument(last * first.conj())];
-        Measured::with(curve, directions, length)
     }
 
     /// As many panels as it takes.

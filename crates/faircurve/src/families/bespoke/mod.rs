@@ -89,6 +89,7 @@ struct Arms {
 
 impl Arms {
     /// Bespoke section 3, with the cosine that its text prints as a sine (`docs/errata.md`).
+    #[inline(always)]
     fn new(tangents: &Tangents) -> Arms {
         // Both arms take the same steps side by side: two lanes of one register.
         let Tangents { sin, cos, .. } = *tangents;
@@ -134,6 +135,7 @@ struct Tangents {
 }
 
 impl Tangents {
+    #[inline(always)]
     fn new(ChordAngles { theta0, theta1 }: ChordAngles) -> Tangents {
         let angle = [theta0, theta1];
         let (sin, cos) = sin_cos_of_both(angle);
@@ -172,6 +174,7 @@ fn turned_back([sin, cos]: [[f64; 2]; 2], by: [f64; 2]) -> [[f64; 2]; 2] {
 impl CurvatureMap for BespokeCubics {
     /// Of the cubic with arms a and b on the unit chord: κ = (2/3)(sin θ₀ − b sin(θ₀ + θ₁))/(a·|a|)
     /// at the start, and the mirror image at the end.
+    #[inline(always)]
     fn curvatures(&self, angles: ChordAngles, context: &SegmentContext) -> EndCurvatures {
         const SCALE: f64 = 2.0 / 3.0;
         let tangents = Tangents::new(angles);
@@ -223,9 +226,8 @@ impl SegmentShape for BespokeCubics {
         if is_straight && angle.iter().all(|angle| angle.abs() < FRAC_PI_2) {
             return Segment::line(start, end);
         }
-        let [first, last] =
-            [Complex64::new(cos[0], -sin[0]) * a, Complex64::new(cos[1], sin[1]) * b];
-        let cubic = UnitBezier::from_legs(first, last);
+        let legs = [Complex64::new(cos[0], -sin[0]) * a, Complex64::new(cos[1], sin[1]) * b];
+        let cubic = UnitBezier::from_legs(legs, [-angle[0], angle[1]]);
         Segment::unit_curve(start, end, Arc::new(Measured::new(cubic)))
     }
 
