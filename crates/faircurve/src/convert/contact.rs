@@ -9,11 +9,12 @@
 //! 2A²α³ + 3ABα² + (9B² − 6AC)α + 3BC − 2AD = 0;
 //! each deviates along the normal by −E₆(x² − 1)²(x² − q) to leading order, where the metric only sets q.
 
-use kurbo::common::{solve_cubic, solve_quadratic};
+use kurbo::common::solve_quadratic;
 use num_complex::Complex64;
 
 use super::piece::Piece;
 use super::tuning::NEARLY_REAL;
+use crate::numeric::roots::cubic_roots;
 
 /// q of the cubic that minimises the largest distance: the root of 4(1 − q)³ = 27q.
 pub(super) const MINIMAX_Q: f64 = 0.105_892_543;
@@ -78,8 +79,9 @@ pub(super) fn expansions(kappa: [f64; 4]) -> Starts {
     let e = k0 * (45.0 * k0 * k0 * k0 * k0 + 34.0 * k0 * k2 + 48.0 * k1 * k1) / 720.0;
     let mut starts = Starts { starts: [Start { arms: [2.0 / 3.0; 2], e6: 0.0 }; 3], count: 0 };
     let contact = [3.0 * b * c - 2.0 * a * d, 9.0 * b * b - 6.0 * a * c, 3.0 * a * b, 2.0 * a * a];
-    let roots = solve_cubic(contact[0], contact[1], contact[2], contact[3]);
-    for alpha in roots.iter().copied() {
+    let (roots, count) = cubic_roots(contact);
+    let roots = &roots[..count];
+    for &alpha in roots {
         if let Some(start) = expansion([a, b, c, d, e], k0, alpha) {
             starts.push(start);
         }
@@ -87,7 +89,7 @@ pub(super) fn expansions(kappa: [f64; 4]) -> Starts {
     starts.starts[..starts.count].sort_by(|a, b| a.e6.abs().total_cmp(&b.e6.abs()));
     // Where two of three roots have met and become complex, p ± iy with a small y, there is still a local
     // minimum near p, though nothing is in contact there.
-    if let [root] = roots[..] {
+    if let &[root] = roots {
         let extrema = solve_quadratic(contact[1], 2.0 * contact[2], 3.0 * contact[3]);
         let value = |x: f64| contact[0] + x * (contact[1] + x * (contact[2] + x * contact[3]));
         // The polynomial is contact[3]·(x − root)·((x − p)² + y²).

@@ -1,5 +1,6 @@
 //! The metrics of thesis section 9.2 that compare directions.
 
+use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
 use kurbo::common::GAUSS_LEGENDRE_COEFFS_16;
@@ -9,7 +10,7 @@ use super::minimax::LocalCubic;
 use super::options::Metric;
 use super::piece::{Piece, Stretch};
 use crate::numeric::order::sort_by;
-use crate::numeric::trig::argument;
+use crate::numeric::trig::{argument, cis};
 
 /// Nodes of one panel.
 const NODES: usize = 16;
@@ -77,22 +78,20 @@ pub(super) fn angle_error(
     let length = arc_length(cubic);
     let width = 1.0 / panels as f64;
     let (mut sum, mut before) = (0.0, 0.0);
-    // Directions relative to that of the start, unwrapped from node to node.
-    let mut heading = piece.end_tangents[0];
-    let mut turned = 0.0;
+    // The angle between the cubic and the piece, unwrapped from node to node.
+    let mut off = 0.0;
     for panel in 0..panels {
         let velocities: [Complex64; NODES] =
             std::array::from_fn(|i| cubic.velocity((panel as f64 + rule.nodes[i]) * width));
         let speeds = velocities.map(|v| v.norm() * width);
         for i in 0..NODES {
-            if speeds[i] > 0.0 {
-                let velocity = velocities[i];
-                turned += argument(velocity * heading.conj());
-                heading = velocity;
-            }
             let partial: f64 = rule.partial[i].iter().zip(speeds).map(|(w, v)| w * v).sum();
             let along = ((before + partial) / length).clamp(0.0, 1.0);
-            let off = turned - stretch.turn(piece, along);
+            if speeds[i] > 0.0 {
+                let heading = piece.end_tangents[0] * cis(stretch.turn(piece, along));
+                let near = argument(velocities[i] * heading.conj());
+                off = near + TAU * ((off - near) / TAU).round();
+            }
             let term = if metric == Metric::AbsoluteAngle { off.abs() } else { off * off };
             sum += rule.weights[i] * speeds[i] * term;
         }

@@ -30,16 +30,19 @@ pub(super) fn arms_of_ratio(piece: &Piece, ratio: f64) -> [f64; 2] {
         let value = excess(total);
         if value > 0.0 {
             high = total
-        } else {
+        } else if value < 0.0 {
             low = total
+        } else {
+            break;
         }
         let secant = total - value * (total - last) / (value - last_excess);
         (last, last_excess) = (total, value);
         let next = if secant > low && secant < high { secant } else { (low + high) / 2.0 };
-        if (next - total).abs() <= 1e-14 || value == 0.0 {
+        let is_done = (next - total).abs() <= 1e-14;
+        total = next;
+        if is_done {
             break;
         }
-        total = next;
     }
     arms(total)
 }

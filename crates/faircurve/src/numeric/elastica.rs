@@ -13,7 +13,7 @@ use num_complex::Complex64;
 
 use super::dual::Real;
 use super::elliptic::{Elliptic, complete_k};
-use super::trig::argument;
+use super::trig::{argument, unit_vector};
 
 /// An elastica, by its curvature κ and its slope κ′ at a place of reference, s = 0, and the constant
 /// C of κ″ + ½κ³ + Cκ = 0 (thesis eq. 3.10).
@@ -159,7 +159,7 @@ impl Elastica {
         let (x, y) = middle.chord(&half);
         let end = middle.moved(&half);
         ElasticaPoint {
-            point: Complex64::new(x, y) * Complex64::cis(to_middle),
+            point: Complex64::new(x, y) * unit_vector(to_middle),
             direction,
             curvature: end.k,
             slope: end.k1,

@@ -3,6 +3,8 @@
 
 use num_complex::Complex64;
 
+use super::trig::unit_vector;
+
 /// Coefficients of the powers of u − u₀.
 pub(crate) type Series<const N: usize> = [f64; N];
 
@@ -23,7 +25,7 @@ pub(crate) fn quotient<const N: usize>(a: &Series<N>, b: &Series<N>) -> Series<N
 
 /// e^{ia}: from its derivative, ia′e^{ia}.
 pub(crate) fn cis<const N: usize>(a: &Series<N>) -> [Complex64; N] {
-    let mut e = [Complex64::cis(a[0]); N];
+    let mut e = [unit_vector(a[0]); N];
     for n in 1..N {
         let sum: Complex64 = (1..=n).map(|j| e[n - j] * (a[j] * j as f64)).sum();
         e[n] = Complex64::new(-sum.im, sum.re) / n as f64;

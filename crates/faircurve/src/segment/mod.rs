@@ -20,7 +20,7 @@ use crate::numeric::spiro_integral::{angle, curvature_jet, spiro_integral_betwee
 use crate::numeric::trig::{argument, unit_vector};
 
 pub use bezier::UnitBezier;
-pub use measured::{Measured, ParametricCurve};
+pub use measured::{Gentle, Measured, ParametricCurve};
 pub use spiral::{PolynomialSpiral, SpiralChord};
 pub use unit_curve::{CurveEnd, UnitCurve};
 
@@ -283,8 +283,10 @@ impl Segment {
             Shape::Unit(piece) => {
                 let unit = piece.curve.bezier(piece.from, piece.to)?;
                 let unit = if piece.backwards { unit.reverse() } else { unit };
+                let Complex64 { re, im } = unit_vector(self.heading);
+                let turned = Affine::new([re, im, -im, re, 0.0, 0.0]);
                 let map = Affine::translate(self.start.to_vec2())
-                    * Affine::rotate(self.heading)
+                    * turned
                     * Affine::scale(piece.scale)
                     * Affine::translate(-unit.start().to_vec2());
                 Some(vec![with_ends(map * unit, self.start, self.end)])

@@ -9,6 +9,7 @@ use kurbo::Point;
 use super::catalog::{CatalogError, Claim, ParamKind, ParamSpec, Params, SplineInfo};
 use super::shapes;
 use crate::frame::{ChordAngles, EndCurvature, wrap_angle};
+use crate::numeric::trig::sin_cos;
 use crate::outline::Join;
 use crate::plan::Run;
 use crate::segment::{Measured, Segment, UnitBezier};
@@ -201,7 +202,7 @@ impl SegmentShape for HobbyCubics {
 /// ```
 pub fn hobby_arms(angles: ChordAngles, tensions: [f64; 2]) -> [f64; 2] {
     let ChordAngles { theta0, theta1 } = angles;
-    let ((s0, c0), (s1, c1)) = (theta0.sin_cos(), theta1.sin_cos());
+    let ((s0, c0), (s1, c1)) = (sin_cos(theta0), sin_cos(theta1));
     let alpha = SQRT_2 * (s0 - s1 / 16.0) * (s1 - s0 / 16.0) * (c0 - c1);
     let c = (3.0 - 5f64.sqrt()) / 2.0;
     let arm = |alpha: f64, own: f64, other: f64, tension: f64| {

@@ -6,6 +6,7 @@ use kurbo::{Point, Vec2};
 use num_complex::Complex64;
 
 use crate::frame::ChordAngles;
+use crate::numeric::trig::{argument, cis, sin_cos};
 use crate::segment::{PolynomialSpiral, Segment};
 use crate::two_param::shape::{SegmentEnds, SegmentShape};
 
@@ -47,25 +48,21 @@ pub fn biarc(angles: ChordAngles) -> Option<Biarc> {
     // ψ = −difference/2 + off. With c, s for half the turning and C, S for half the difference,
     // sin ψ = −cS and tan off = S·(√(1 − c²S²) − cC)/(C·√(1 − c²S²) + cS²), here without
     // cancellation.
-    let (s, c) = (turning / 2.0).sin_cos();
-    let (big_s, big_c) = (difference / 2.0).sin_cos();
+    let (s, c) = sin_cos(turning / 2.0);
+    let (big_s, big_c) = sin_cos(difference / 2.0);
     let cos_psi = big_c.hypot(big_s * s);
     let share = (2.0 - difference.abs() / FRAC_PI_2).clamp(0.0, 1.0);
     let sum = cos_psi + c * big_c;
     let rest = if c * big_c > 0.0 { s * s / sum } else { cos_psi - c * big_c };
-    let off = share * (big_s * rest).atan2(big_c * cos_psi + c * big_s * big_s);
+    let off = share * argument(Complex64::new(big_c * cos_psi + c * big_s * big_s, big_s * rest));
     let arcs = [(3.0 * theta0 - theta1) / 2.0 + off, (3.0 * theta1 - theta0) / 2.0 - off];
     let closes = |arc: f64| !(arc.abs() < 2.0 * PI - CLOSED);
     if closes(turning) || arcs.into_iter().any(closes) {
         return None;
     }
     // The law of sines in the triangle of the three chords.
-    let chord = if turning == 0.0 {
-        0.5
-    } else {
-        (turning / 4.0 + off / 2.0).sin() / (turning / 2.0).sin()
-    };
-    let joint = Complex64::from_polar(chord, arcs[0] / 2.0 - theta0);
+    let chord = if turning == 0.0 { 0.5 } else { sin_cos(turning / 4.0 + off / 2.0).0 / s };
+    let joint = cis(arcs[0] / 2.0 - theta0) * chord;
     Some(Biarc { joint, turning: arcs })
 }
 

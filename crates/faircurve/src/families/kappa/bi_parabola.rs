@@ -38,17 +38,17 @@ impl BiParabola {
     fn new(ChordAngles { theta0, theta1 }: ChordAngles) -> BiParabola {
         // |sin φ| ≤ 1/3, and the equation's sign changes between.
         let most = (1.0f64 / 3.0).asin();
+        let sin = |angle: f64| sin_cos(angle).0;
         let across = |phi: f64| {
             let (mu, _) = share(phi + theta0, theta1 - phi);
-            3.0 * phi.sin() - mu * (phi + 2.0 * theta0).sin()
-                + (1.0 - mu) * (2.0 * theta1 - phi).sin()
+            3.0 * sin(phi) - mu * sin(phi + 2.0 * theta0) + (1.0 - mu) * sin(2.0 * theta1 - phi)
         };
         let phi = monotone_root(across, -most, most).unwrap_or(0.0);
         let (alpha, beta) = (phi + theta0, theta1 - phi);
         let (mu, bend) = share(alpha, beta);
-        let along = 3.0 * phi.cos()
-            + mu * (phi + 2.0 * theta0).cos()
-            + (1.0 - mu) * (2.0 * theta1 - phi).cos();
+        let cos = |angle: f64| sin_cos(angle).1;
+        let along =
+            3.0 * cos(phi) + mu * cos(phi + 2.0 * theta0) + (1.0 - mu) * cos(2.0 * theta1 - phi);
         BiParabola { alpha, beta, phi, mu, leg: 2.0 / along, bend }
     }
 
@@ -108,7 +108,7 @@ fn finite(slope: f64) -> f64 {
 
 /// μ, and the sum that it divides.
 fn share(alpha: f64, beta: f64) -> (f64, f64) {
-    let (p, q) = ((2.0 * alpha).sin().abs(), (2.0 * beta).sin().abs());
+    let [p, q] = [alpha, beta].map(|angle| sin_cos(2.0 * angle).0.abs());
     (if p + q > 0.0 { p / (p + q) } else { 0.5 }, p + q)
 }
 
@@ -133,10 +133,15 @@ impl SegmentShape for BiParabolas {
         let found = BiParabola::new(ends.angles);
         let chord = end - start;
         let (length, towards) = (chord.hypot(), direction(chord));
-        let leg = |direction: f64, part: f64| Vec2::from_angle(towards + direction) * length * part;
+        let leg = |direction: f64, part: f64| {
+            let (sin, cos) = sin_cos(towards + direction);
+            Vec2::new(cos, sin) * length * part
+        };
         let (before, after) = (found.mu * found.leg, (1.0 - found.mu) * found.leg);
-        let first = [leg(-ends.angles.theta0, before * found.alpha.cos()), leg(found.phi, before)];
-        let second = [leg(found.phi, after), leg(ends.angles.theta1, after * found.beta.cos())];
+        let first =
+            [leg(-ends.angles.theta0, before * sin_cos(found.alpha).1), leg(found.phi, before)];
+        let second =
+            [leg(found.phi, after), leg(ends.angles.theta1, after * sin_cos(found.beta).1)];
         let joint = start + first[0] + first[1];
         if !joint.is_finite() {
             // Tangents that no two parabolas have; the report names the knots that this breaks.

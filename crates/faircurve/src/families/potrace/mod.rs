@@ -6,6 +6,7 @@ use std::sync::Arc;
 use kurbo::Point;
 
 use crate::frame::ChordAngles;
+use crate::numeric::trig::sin_cos;
 use crate::segment::{Measured, Segment, UnitBezier};
 use crate::two_param::shape::{SegmentEnds, SegmentShape};
 
@@ -43,12 +44,12 @@ pub fn potrace_arms(angles: ChordAngles) -> [f64; 2] {
     const SHORTEST: f64 = 0.1;
     const LONGEST: f64 = 4.0;
     let ChordAngles { theta0, theta1 } = angles;
-    let t = ((theta0.abs() + theta1.abs()) / 4.0).tan();
-    let squared = 1.0 + t * t;
+    let (sin, cos) = sin_cos((theta0.abs() + theta1.abs()) / 4.0);
+    // (1 + t²)²/t = 1/(sin cos³).
+    let six = 6.0 * sin * (cos * cos * cos).max(f64::MIN_POSITIVE);
     [theta1, theta0].map(|opposite| {
         // Of straight segments, any arm will do.
-        let arm =
-            if t == 0.0 { 1.0 / 3.0 } else { opposite.abs().sin() / t * squared * squared / 6.0 };
+        let arm = if sin == 0.0 { 1.0 / 3.0 } else { sin_cos(opposite.abs()).0 / six };
         arm.clamp(SHORTEST, LONGEST)
     })
 }

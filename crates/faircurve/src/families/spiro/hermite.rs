@@ -14,6 +14,7 @@ use num_complex::Complex64;
 
 use crate::numeric::order::sort_by;
 use crate::numeric::spiro_integral::spiro_moments;
+use crate::numeric::trig::{argument, unit_vector};
 
 /// Segments with the ends `[theta0, theta1, kappa0, kappa1]` (unit chord, angles modulo full turns),
 /// as k₀ … k₃, the straightest first.
@@ -92,7 +93,8 @@ impl Sums {
         let m0 = moments.integral();
         let inverse = m0.inv();
         let g: [Complex64; 4] = std::array::from_fn(|j| moments.derivative(j) * inverse);
-        let off = (m0 * Complex64::cis(-psi)).ln() - log_c;
+        let turned = m0 * unit_vector(-psi);
+        let off = Complex64::new(0.5 * turned.norm_sqr().ln() - log_c, argument(turned));
         let arc = (-log_c).exp();
         let (a, b) = (self.s / 2.0 * arc, self.f * arc);
         let by_log_c = a * (0.5 * g[0] - 12.0 * g[2]) + b * (g[1] - 48.0 * g[3]) - 1.0;
