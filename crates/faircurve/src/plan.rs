@@ -15,6 +15,7 @@ use kurbo::{Point, Vec2};
 use crate::curve::Curve;
 use crate::frame::{circle_tangent, direction, turning, wrap_angle};
 use crate::numeric::order::sort_by;
+use crate::numeric::rounding::power_of_two;
 use crate::outline::{Contour, Join, Knot};
 use crate::segment::{CurveEnd, Segment};
 use crate::spline::{
@@ -692,7 +693,9 @@ impl NormalFrame {
         if size > 0.0 && size < SMALLEST_SIZE {
             return Err(InputError::TooSmall);
         }
-        let scale = if size > 0.0 { (-size.log2().ceil()).exp2() } else { 1.0 };
+        let power = power_of_two(size);
+        let scale = if size > power { 0.5 / power } else { 1.0 / power };
+        let scale = if size > 0.0 { scale } else { 1.0 };
         Ok(NormalFrame { scale })
     }
 

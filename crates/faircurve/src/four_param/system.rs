@@ -13,6 +13,7 @@ use super::family::{Ends, FourParamFamily, Response};
 use crate::frame::{direction, wrap_angle};
 use crate::numeric::block_tridiagonal::{BlockRow, BlockTridiagonal};
 use crate::numeric::newton::{System, larger};
+use crate::numeric::rounding::{fixed, floating};
 use crate::outline::Join;
 use crate::plan::Run;
 use crate::tolerance::LOOP;
@@ -144,12 +145,6 @@ impl<'a> RunSystem<'a> {
     /// Runs that differ by a similarity differ in their last digits; rounded, they are the same run,
     /// and so is all that a search makes of it, however sensitive.
     pub(super) fn rounded(&self) -> Self {
-        const FINENESS: f64 = 1.0 / (1u64 << 26) as f64;
-        let fixed = |number: f64| (number / FINENESS).round() * FINENESS;
-        let floating = |number: f64| {
-            let unit = number.abs().log2().floor().exp2() * FINENESS;
-            if unit > 0.0 && unit.is_finite() { (number / unit).round() * unit } else { number }
-        };
         let longest = self.chords.iter().copied().fold(0.0, f64::max);
         let n = self.knots.len();
         let mut rounded = RunSystem { rough: true, ..self.clone() };

@@ -14,6 +14,7 @@ pub mod newton;
 pub(crate) mod order;
 pub(crate) mod quadrature;
 pub mod roots;
+pub(crate) mod rounding;
 pub(crate) mod series;
 pub mod spiro_integral;
 pub mod spiro_series;

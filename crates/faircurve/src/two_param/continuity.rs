@@ -10,6 +10,7 @@ use super::tangents::{TangentRule, Tangents, context, ignored_curvature};
 use crate::frame::{ChordAngles, EndCurvature, along_circle, direction, turning, wrap_angle};
 use crate::numeric::block_tridiagonal::{BlockRow, BlockTridiagonal};
 use crate::numeric::newton::{Limits, System, larger, newton};
+use crate::numeric::rounding::{fixed, floating};
 use crate::numeric::trig::argument;
 use crate::plan::Run;
 use crate::spline::{Adaptation, Effort, Stage};
@@ -320,12 +321,6 @@ impl<'a> TangentSystem<'a> {
 
     /// The same with rounded numbers, in units of the longest chord.
     fn rounded(&self) -> Self {
-        const FINENESS: f64 = 1.0 / (1u64 << 26) as f64;
-        let fixed = |number: f64| (number / FINENESS).round() * FINENESS;
-        let floating = |number: f64| {
-            let unit = number.abs().log2().floor().exp2() * FINENESS;
-            if unit > 0.0 && unit.is_finite() { (number / unit).round() * unit } else { number }
-        };
         let chords = self.segments.iter().map(|segment| segment.context.chord);
         let longest = chords.fold(0.0, f64::max);
         let segment = |segment: &MappedSegment| {
