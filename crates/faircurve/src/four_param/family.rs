@@ -29,11 +29,27 @@ pub struct Response {
     pub parameters_by_jets: [[f64; 4]; 4],
 }
 
+impl Response {
+    /// Of nothing that was asked.
+    pub(crate) const NONE: Response = Response {
+        ends: Ends { jets: [f64::NAN; 4], derivatives: [f64::NAN; 4], straightness: 0.0 },
+        derivatives_by_jets: [[f64::NAN; 4]; 4],
+        parameters_by_jets: [[f64::NAN; 4]; 4],
+    };
+}
+
 /// Curves with four parameters for given ends, such as polynomial spirals or minimum variation
 /// curves. Parameters are the family's own business; all zero must be the straight line.
 pub trait FourParamFamily: fmt::Debug {
     /// The ends of the segment with these parameters, and their response.
     fn respond(&self, parameters: [f64; 4]) -> Response;
+
+    /// Writes that, or what is [roughly](Self::respond_roughly) that, where it belongs: it is large, and moved when it
+    /// is returned by a family that isn't known by type.
+    fn respond_to(&self, parameters: [f64; 4], is_rough: bool, response: &mut Response) {
+        *response =
+            if is_rough { self.respond_roughly(parameters) } else { self.respond(parameters) };
+    }
 
     /// The ends alone.
     fn ends(&self, parameters: [f64; 4]) -> Ends;

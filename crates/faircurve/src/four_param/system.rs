@@ -454,30 +454,27 @@ impl<'a> RunSystem<'a> {
     /// Computes responses and mismatches of the present state. Where a single knot has moved, segments far from it don't
     /// change, and aren't asked again.
     pub(super) fn evaluate(&mut self) {
+        let count = self.parameters.len();
+        self.responses.resize(count, Response::NONE);
+        self.answered.resize(count, NOT_IN_FULL);
         for (i, parameters) in self.parameters.iter().enumerate() {
-            if self.answered.get(i) == Some(parameters) {
+            if self.answered[i] == *parameters {
                 continue;
             }
-            let response = match i.checked_sub(1) {
+            match i.checked_sub(1) {
                 // As straight segments are, from which a solution starts.
-                Some(before) if self.parameters[before] == *parameters => self.responses[before],
-                _ if self.rough => self.family.respond_roughly(*parameters),
-                _ => self.family.respond(*parameters),
-            };
-            if i < self.responses.len() {
-                (self.responses[i], self.answered[i]) = (response, *parameters);
-            } else {
-                self.responses.push(response);
-                self.answered.push(*parameters);
+                Some(before) if self.parameters[before] == *parameters => {
+                    self.responses.copy_within(before..i, i);
+                }
+                _ => self.family.respond_to(*parameters, self.rough, &mut self.responses[i]),
             }
+            self.answered[i] = *parameters;
         }
         self.compare();
     }
 
     /// The same after a step that leaves the responses as they are.
     fn evaluate_ends(&mut self) {
-        /// Equal to no parameters.
-        const NOT_IN_FULL: [f64; 4] = [f64::NAN; 4];
         for (response, parameters) in self.responses.iter_mut().zip(&self.parameters) {
             response.ends = self.family.ends(*parameters);
         }
@@ -641,6 +638,9 @@ impl System<2> for RunSystem<'_> {
         size
     }
 }
+
+/// Equal to no parameters: of responses that aren't there, or aren't whole.
+const NOT_IN_FULL: [f64; 4] = [f64::NAN; 4];
 
 /// The equations of a knot at a window's rim: its own that concern the side within alone, filled up
 /// with what is held.

@@ -82,11 +82,20 @@ pub struct PolynomialSpirals;
 
 impl FourParamFamily for PolynomialSpirals {
     fn respond(&self, k: [f64; 4]) -> Response {
-        respond(k, &spiro_moments(k))
+        let mut response = Response::NONE;
+        self.respond_to(k, false, &mut response);
+        response
     }
 
     fn respond_roughly(&self, k: [f64; 4]) -> Response {
-        respond(k, &rough_spiro_moments(k))
+        let mut response = Response::NONE;
+        self.respond_to(k, true, &mut response);
+        response
+    }
+
+    fn respond_to(&self, k: [f64; 4], is_rough: bool, response: &mut Response) {
+        let moments = if is_rough { rough_spiro_moments(k) } else { spiro_moments(k) };
+        write_response(k, &moments, response);
     }
 
     fn ends(&self, k: [f64; 4]) -> Ends {
@@ -134,7 +143,7 @@ fn ends(k: [f64; 4], integral: Complex64) -> Ends {
     }
 }
 
-/// The response of the segment with these parameters and moments.
+/// Writes the response of the segment with these parameters and moments.
 ///
 /// With c e^{iψ} the spiro integral (chord and arc length 1), and sums and differences of the
 /// ends T = θ₀ + θ₁, D = θ₁ − θ₀, S = κ₀ + κ₁, F = κ₁ − κ₀ (unit chord), the definitions
@@ -145,7 +154,7 @@ fn ends(k: [f64; 4], integral: Complex64) -> Ends {
 ///
 /// so that only log c and ψ depend on the ends nonlinearly, through
 /// d(log c + iψ) = Σ i M_{j+1}/((j+1)! M₀) dk_j: two real equations.
-fn respond(k: [f64; 4], moments: &SpiroMoments) -> Response {
+fn write_response(k: [f64; 4], moments: &SpiroMoments, response: &mut Response) {
     let ends = ends(k, moments.integral());
     let c = ends.straightness;
     let [_, _, kappa0, kappa1] = ends.jets;
@@ -195,11 +204,11 @@ fn respond(k: [f64; 4], moments: &SpiroMoments) -> Response {
             [t[row] - d[row], t[row] + d[row], s[row] - f[row], s[row] + f[row]]
         })
     };
-    Response {
+    *response = Response {
         ends,
         derivatives_by_jets: by_jets(t.1, d.1, s.1, f.1),
         parameters_by_jets: by_jets(t.0, d.0, s.0, f.0),
-    }
+    };
 }
 
 #[cfg(test)]
