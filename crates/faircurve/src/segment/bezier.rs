@@ -4,7 +4,7 @@ use kurbo::common::solve_quadratic;
 use kurbo::{CubicBez, ParamCurve, PathSeg, Point, Rect};
 use num_complex::Complex64;
 
-use super::{Gentle, ParametricCurve};
+use super::ParametricCurve;
 use crate::numeric::gauss_legendre::GAUSS_16;
 use crate::numeric::trig::{argument, cis};
 
@@ -96,22 +96,34 @@ impl ParametricCurve for UnitBezier {
         Some(if is_whole { self.exact } else { self.exact.subsegment(from..to) })
     }
 
-    /// Let the velocity's control points keep within r of the chord, 1. In the ellipse about [0, 1] in the
-    /// plane of complex u on which |u| + |1 − u| = S the Bernstein polynomials' absolute values add up to at
-    /// most S², so that the velocity isn't 0 there, and the speed is analytic, as long as rS² < 1. With
-    /// r = 0.3, the error of sixteen nodes is below 2e-16 (Bernstein's ellipse has ρ = S + √(S² − 1) = 3.35).
-    fn gentle(&self) -> Option<Gentle> {
+    /// Let the control points of a stretch's velocity keep within r of their mean, over which it is 1. In the
+    /// ellipse about [0, 1] in the plane of complex u on which |u| + |1 − u| = S the Bernstein polynomials'
+    /// absolute values add up to at most S², so that the velocity isn't 0 there, and the speed is analytic, as
+    /// long as rS² < 1. With r = 0.3, the error of sixteen nodes is below 2e-16 of the length (Bernstein's ellipse
+    /// has ρ = S + √(S² − 1) = 3.35).
+    fn gentle_length(&self, from: f64, to: f64) -> Option<f64> {
         const NEAR: f64 = 0.3;
         let [a, b, c] = self.velocity;
-        if ![a, b, c].iter().all(|v| (v - 1.0).norm_sqr() <= NEAR * NEAR) {
-            return None;
-        }
-        let directions = match self.directions {
+        let blossom = |u: f64, v: f64| {
+            a * ((1.0 - u) * (1.0 - v)) + b * (u * (1.0 - v) + v * (1.0 - u)) + c * (u * v)
+        };
+        let stretch = if (from, to) == (0.0, 1.0) {
+            self.velocity
+        } else {
+            [blossom(from, from), blossom(from, to), blossom(to, to)]
+        };
+        let mean = (stretch[0] + stretch[1] + stretch[2]) / 3.0;
+        let most = NEAR * NEAR * mean.norm_sqr();
+        let is_gentle = stretch.iter().all(|v| (v - mean).norm_sqr() <= most);
+        (is_gentle && most > 0.0).then(|| (to - from) * length_by_sixteen_nodes(stretch))
+    }
+
+    fn gentle_directions(&self) -> [f64; 2] {
+        match self.directions {
             // Of arms that point forwards.
             Some(known) if known.iter().all(|direction| direction.abs() < 1.0) => known,
-            _ => [argument(a), argument(c)],
-        };
-        Some(Gentle { length: length_by_sixteen_nodes(self.velocity), directions })
+            _ => [argument(self.velocity[0]), argument(self.velocity[2])],
+        }
     }
 }
 

@@ -25,20 +25,17 @@ pub trait ParametricCurve: fmt::Debug + Send + Sync {
     /// The piece between two parameters as a Bézier, if it is one exactly.
     fn bezier(&self, from: f64, to: f64) -> Option<PathSeg>;
 
-    /// The whole of a gentle curve: one of which it is known without a try that it turns by less than a
-    /// radian and that sixteen nodes measure it, or any part of it, to rounding. `None` for others.
-    fn gentle(&self) -> Option<Gentle> {
+    /// The length of a gentle stretch between two parameters: one of which it is known without a try that it
+    /// turns by less than a radian and that sixteen nodes measure it, or any part of it, to rounding. `None` for
+    /// others.
+    fn gentle_length(&self, _from: f64, _to: f64) -> Option<f64> {
         None
     }
-}
 
-/// What holds of a gentle curve as a whole: see [`ParametricCurve::gentle`].
-#[derive(Clone, Copy, Debug)]
-pub struct Gentle {
-    /// Arc length.
-    pub length: f64,
-    /// Directions at both ends, in radians.
-    pub directions: [f64; 2],
+    /// The directions at both ends, in radians, of a curve that is gentle as a whole.
+    fn gentle_directions(&self) -> [f64; 2] {
+        [0.0, 1.0].map(|u| argument(self.velocity(u)))
+    }
 }
 
 /// A [`ParametricCurve`] with its arc length measured to about 1e-15.
@@ -75,9 +72,10 @@ impl<C: ParametricCurve> Measured<C> {
     /// Measures a curve. Takes sixteen evaluations of the velocity where it is gentle, some 50 where that
     /// isn't known but found.
     pub fn new(curve: C) -> Self {
-        match curve.gentle() {
+        match curve.gentle_length(0.0, 1.0) {
             // A single panel.
-            Some(Gentle { length, directions }) => {
+            Some(length) => {
+                let directions = curve.gentle_directions();
                 Measured::with(curve, directions, length.max(1.0))
             }
             None => Measured::by_panels(curve),
@@ -89,11 +87,12 @@ impl<C: ParametricCurve> Measured<C> {
     fn by_panels(curve: C) -> Self {
         let start = argument(tangent(&curve, 0.0, true));
         let mut measured = Measured::with(curve, [start; 2], 0.0);
-        let whole = measured.arc(0.0, 1.0);
         // What lengths are known to. Where a long curve nearly stands still, its velocity is a small
         // difference of large numbers: less would be noise, and panels without end.
-        let noise = 4.0 * f64::EPSILON * (1.0 + whole);
-        measured.measure([0.0, 1.0], whole, noise, 50);
+        let speed = |u: f64| size(measured.curve.velocity(u));
+        let roughly = [0.0, 0.25, 0.5, 0.75, 1.0].map(speed).iter().sum::<f64>() / 5.0;
+        let noise = 4.0 * f64::EPSILON * (1.0 + roughly);
+        measured.measure([0.0, 1.0], None, noise, 50);
         // What isn't a number stays so: the segment will be a straight line.
         if measured.length < 1.0 {
             measured.length = 1.0;
@@ -116,7 +115,7 @@ impl<C: ParametricCurve> Measured<C> {
     }
 
     /// Appends the panel from `u` to `to`, of that length.
-    fn push(&mut self, u: f64, to: f64, length: f64) {
+    fn push(&mut self, [u, to]: [f64; 2], length: f64) {
         let direction = &mut self.ends[1].direction;
         if u > 0.0 {
             self.later.push(Panel { u, s: self.length, direction: *direction });
@@ -130,19 +129,31 @@ impl<C: ParametricCurve> Measured<C> {
         }
     }
 
-    /// Appends the panels from `u` to `to`.
-    fn measure(&mut self, [u, to]: [f64; 2], whole: f64, noise: f64, depth: usize) {
+    /// Appends the panels from `u` to `to`, which isn't gentle; sixteen nodes may have measured the whole.
+    fn measure(&mut self, [u, to]: [f64; 2], whole: Option<f64>, noise: f64, depth: usize) {
         let middle = (u + to) / 2.0;
+        let halves = [[u, middle], [middle, to]];
+        let gentle = halves.map(|[from, to]| self.curve.gentle_length(from, to));
+        if depth > 0 && gentle.iter().any(Option::is_some) {
+            for (half, gentle) in halves.into_iter().zip(gentle) {
+                match gentle {
+                    Some(length) => self.push(half, length),
+                    None => self.measure(half, None, noise, depth - 1),
+                }
+            }
+            return;
+        }
+        let whole = whole.unwrap_or_else(|| self.arc(u, to));
         let (left, right) = (self.arc(u, middle), self.arc(middle, to));
         let is_short = whole < NEGLIGIBLE * noise;
         let is_even = (left + right - whole).abs() <= noise;
         let is_enough = depth == 0 || self.later.len() + 1 >= MOST_PANELS || !whole.is_finite();
         if is_enough || is_short || (is_even && self.turn(u, to) < MOST_TURN) {
-            self.push(u, to, left + right);
+            self.push([u, to], left + right);
             return;
         }
-        self.measure([u, middle], left, noise, depth - 1);
-        self.measure([middle, to], right, noise, depth - 1);
+        self.measure(halves[0], Some(left), noise, depth - 1);
+        self.measure(halves[1], Some(right), noise, depth - 1);
     }
 
     /// The sum of the sines of what the curve turns between five places; infinite where it turns by more

@@ -20,7 +20,7 @@ use crate::numeric::spiro_integral::{angle, curvature_jet, spiro_integral_betwee
 use crate::numeric::trig::{argument, unit_vector};
 
 pub use bezier::UnitBezier;
-pub use measured::{Gentle, Measured, ParametricCurve};
+pub use measured::{Measured, ParametricCurve};
 pub use spiral::{PolynomialSpiral, SpiralChord};
 pub use unit_curve::{CurveEnd, UnitCurve};
 
