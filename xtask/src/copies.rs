@@ -12,11 +12,11 @@ use walrus::ir::{
 };
 use walrus::{LocalId, Module, ModuleConfig, ModuleLocals, ValType};
 
-/// Bytes up to which a copy is spelled out; beyond, the call costs less than the code.
+/// Bytes up to which a copy may be spelled out; beyond, the call costs less than the code.
 const MOST: usize = 128;
 
-/// Spells out the module's copies.
-pub(crate) fn spell_out(file: &Path) -> Result<(), String> {
+/// Spells out the module's copies of up to so many bytes, at most [`MOST`].
+pub(crate) fn spell_out(file: &Path, most: usize) -> Result<(), String> {
     let wrong = |error: &dyn std::fmt::Display| format!("{}: {error}", file.display());
     let bytes = fs::read(file).map_err(|error| wrong(&error))?;
     let mut config = ModuleConfig::new();
@@ -24,7 +24,7 @@ pub(crate) fn spell_out(file: &Path) -> Result<(), String> {
     let mut module: Module = config.parse(&bytes).map_err(|error| wrong(&error))?;
     for (_, function) in module.funcs.iter_local_mut() {
         let entry = function.entry_block();
-        let mut copies = Copies { locals: &mut module.locals, room: None };
+        let mut copies = Copies { locals: &mut module.locals, room: None, most: most.min(MOST) };
         dfs_pre_order_mut(&mut copies, function, entry);
     }
     fs::write(file, module.emit_wasm()).map_err(|error| wrong(&error))
@@ -34,6 +34,7 @@ pub(crate) fn spell_out(file: &Path) -> Result<(), String> {
 struct Copies<'a> {
     locals: &'a mut ModuleLocals,
     room: Option<Room>,
+    most: usize,
 }
 
 /// The function's locals for what is copied.
@@ -102,7 +103,7 @@ impl VisitorMut for Copies<'_> {
                 (
                     Instr::MemoryCopy(_),
                     Some((Instr::Const(Const { value: Value::I32(size) }), _)),
-                ) => usize::try_from(*size).ok().filter(|size| *size <= MOST && size % 4 == 0),
+                ) => usize::try_from(*size).ok().filter(|size| *size <= self.most && size % 4 == 0),
                 _ => None,
             };
             match (instruction, size) {

@@ -16,11 +16,11 @@ use crate::{at, copies, root};
 const TARGET: &str = "wasm32-unknown-unknown";
 
 /// The modules: name, which is that of the crate's feature, too, the levels of optimisation of the compiler
-/// and of wasm-opt, and whether copies are spelled out. The solvers are hot: copies spelled out make them 3 to
-/// 10 % quicker and 2 % larger, the compiler's level 3 some more quicker and 5 % larger, for which the first
-/// module has no room.
-const MODULES: [(&str, &str, &str, bool); 3] =
-    [("solver", "2", "-O3", true), ("splines", "3", "-O3", true), ("formats", "z", "-Oz", false)];
+/// and of wasm-opt, and bytes up to which copies are spelled out. The solvers are hot: copies spelled out make
+/// them 3 to 10 % quicker and 2 % larger, the compiler's level 3 some more quicker and 5 % larger, for which the
+/// first module has no room.
+const MODULES: [(&str, &str, &str, usize); 3] =
+    [("solver", "2", "-O3", 112), ("splines", "3", "-O3", 128), ("formats", "z", "-Oz", 0)];
 
 /// What every browser since March 2023 and Node 18 have of WebAssembly; Rust's compiler uses no more.
 /// With `simd128` the integrals take some two thirds of the time.
@@ -54,8 +54,8 @@ pub(crate) fn build() -> Result<PathBuf, String> {
         fs::create_dir_all(folder).map_err(|error| at(folder, &error))?;
     }
     run(Command::new("npm").current_dir(&source).args(["ci", "--no-audit", "--no-fund"]))?;
-    for (name, level, wasm_level, spells_out) in MODULES {
-        module(name, level, wasm_level, spells_out)?;
+    for (name, level, wasm_level, most_copied) in MODULES {
+        module(name, level, wasm_level, most_copied)?;
     }
     let rows = source.join("js/wasm/catalogue.ts");
     let catalogue = catalogue().map_err(|error| error.to_string())?;
@@ -118,7 +118,7 @@ pub(crate) fn script(package: &Path, script: &str) -> Result<(), String> {
 }
 
 /// One module: compiled, bound, optimised.
-fn module(name: &str, level: &str, wasm_level: &str, spells_out: bool) -> Result<(), String> {
+fn module(name: &str, level: &str, wasm_level: &str, most_copied: usize) -> Result<(), String> {
     let flags = std::env::var("WASM_CARGO_FLAGS").unwrap_or_default();
     let mut cargo = Command::new("cargo");
     cargo
@@ -140,8 +140,8 @@ fn module(name: &str, level: &str, wasm_level: &str, spells_out: bool) -> Result
     let folder = source().join("js/wasm");
     bindgen.generate(&folder).map_err(|error| format!("wasm-bindgen: {error:#}"))?;
     let file = folder.join(format!("{name}_bg.wasm"));
-    if spells_out {
-        copies::spell_out(&file)?;
+    if most_copied > 0 {
+        copies::spell_out(&file, most_copied)?;
     }
     let features = FEATURES.map(|feature| format!("--enable-{feature}"));
     run(npx("wasm-opt")

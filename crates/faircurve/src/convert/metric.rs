@@ -10,7 +10,7 @@ use super::minimax::LocalCubic;
 use super::options::Metric;
 use super::piece::{Piece, Stretch};
 use crate::numeric::order::sort_by;
-use crate::numeric::trig::{argument, cis};
+use crate::numeric::trig::{argument, unit_vector};
 
 /// Nodes of one panel.
 const NODES: usize = 16;
@@ -88,7 +88,7 @@ pub(super) fn angle_error(
             let partial: f64 = rule.partial[i].iter().zip(speeds).map(|(w, v)| w * v).sum();
             let along = ((before + partial) / length).clamp(0.0, 1.0);
             if speeds[i] > 0.0 {
-                let heading = piece.end_tangents[0] * cis(stretch.turn(piece, along));
+                let heading = piece.end_tangents[0] * unit_vector(stretch.turn(piece, along));
                 let near = argument(velocities[i] * heading.conj());
                 off = near + TAU * ((off - near) / TAU).round();
             }

@@ -38,35 +38,61 @@ pub fn roots_between(coefficients: &[f64], from: f64, to: f64) -> Vec<f64> {
     roots
 }
 
-/// The real roots of c₀ + c₁x + c₂x² + c₃x³ and their number: one or three, of which some may be the same; two
-/// or fewer where c₃ is nothing. To rounding of the largest, times what moves them when coefficients are rounded.
+/// The real roots of c₀ + c₁x + c₂x² + c₃x³ and their number, each to rounding times what moves it when coefficients
+/// are rounded, however far the others are; a twofold root may be left out. Where c₃ is nothing beside the others, as
+/// many as the rest has.
 ///
 /// With x = t − b the cubic is t³ + 3pt + q: by Cardano's formula without its cancellation where one root is real,
-/// by Viète's where three are.
-pub(crate) fn cubic_roots([c0, c1, c2, c3]: [f64; 4]) -> ([f64; 3], usize) {
+/// by Viète's where three are. Then t is near b for roots that are small beside the others, of which little would be
+/// left: one is corrected by Newton's method, two are those of the quadratic that remains without the largest.
+pub(crate) fn cubic_roots(cubic: [f64; 4]) -> ([f64; 3], usize) {
+    let size = cubic.iter().fold(0.0, |size: f64, c| size.max(c.abs()));
+    let cubic = cubic.map(|c| c / size);
+    let [c0, c1, c2, c3] = cubic;
     let mut roots = [0.0; 3];
     let [b, c, d] = [c2 / (3.0 * c3), c1 / (3.0 * c3), c0 / c3];
     let p = c - b * b;
     let half = (d - b * c) / 2.0 - b * p;
-    let discriminant = half * half + p * p * p;
-    if !discriminant.is_finite() {
+    // By the Hessian, which keeps the discriminant of the quadratic as c₃ vanishes.
+    let [h0, h1, h2] =
+        [c3 * c1 / 3.0 - c2 * c2 / 9.0, c3 * c0 - c2 * c1 / 9.0, c2 * c0 / 3.0 - c1 * c1 / 9.0];
+    let discriminant = 4.0 * h0 * h2 - h1 * h1;
+    let root = discriminant.abs().sqrt() / c3 / c3 / 2.0;
+    if !(half.is_finite() && root.is_finite()) {
         let quadratic = solve_quadratic(c0, c1, c2);
         roots.iter_mut().zip(&quadratic).for_each(|(root, known)| *root = *known);
         return (roots, quadratic.len());
     }
-    if discriminant > 0.0 {
-        let u = (half.abs() + discriminant.sqrt()).powf(1.0 / 3.0);
+    let corrected = |mut x: f64| {
+        for _ in 0..3 {
+            let step = horner(&cubic, x) / horner(&[c1, 2.0 * c2, 3.0 * c3], x);
+            x -= if step.is_finite() { step } else { 0.0 };
+        }
+        x
+    };
+    if discriminant < 0.0 {
+        let u = (half.abs() + root).powf(1.0 / 3.0);
         let v = p / u;
         // u − v, as the quotient of u³ − v³ where both have the same sign.
         let t = if v > 0.0 { 2.0 * half.abs() / (u * u + p + v * v) } else { u - v };
-        roots[0] = -t.copysign(half) - b;
+        roots[0] = corrected(-t.copysign(half) - b);
         return (roots, 1);
     }
-    let radius = 2.0 * (-p).max(0.0).sqrt();
-    let (sin, cos) = sin_cos(argument(Complex64::new(-half, (-discriminant).sqrt())) / 3.0);
+    let radius = (-p).max(0.0).sqrt();
+    let (sin, cos) = sin_cos(argument(Complex64::new(-half, root)) / 3.0);
     let across = sin * 3f64.sqrt();
-    roots = [2.0 * cos, across - cos, -across - cos].map(|part| 0.5 * radius * part - b);
-    (roots, 3)
+    let all = [2.0 * cos, across - cos, -across - cos].map(|part| radius * part - b);
+    let largest = all.into_iter().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+    if largest == 0.0 {
+        return (roots, 1);
+    }
+    let largest = corrected(largest);
+    let q0 = -c0 / largest;
+    let q1 = (q0 - c1) / largest;
+    let others = solve_quadratic(q0, q1, (q1 - c2) / largest);
+    roots[0] = largest;
+    roots[1..].iter_mut().zip(&others).for_each(|(root, other)| *root = *other);
+    (roots, 1 + others.len().min(2))
 }
 
 /// The value of Σ cᵢ xⁱ.
@@ -141,30 +167,45 @@ mod tests {
     #[test]
     fn cubics_have_the_roots_they_were_built_from() {
         let places = [-2.0, -0.7, -1e-3, 0.0, 1e-6, 0.3, 1.5, 40.0];
-        for (i, &x) in places.iter().enumerate() {
-            for (j, &y) in places.iter().enumerate().skip(i) {
-                // One root, and two that are real or y ± 0.1i.
-                for (square, count) in [(-0.01, 3), (0.0, 0), (0.01, 1)] {
-                    for leading in [1e-8, -3.0, 1e8] {
-                        // (x − r)((x − y)² + square)
-                        let [q0, q1] = [y * y + square, -2.0 * y];
-                        let cubic = [-x * q0, q0 - x * q1, q1 - x, 1.0].map(|c| leading * c);
-                        let (roots, found) = cubic_roots(cubic);
-                        assert!(count == 0 || found == count, "{x} {y} {square}: {found}");
-                        let known = [x, y - 0.1, y + 0.1];
-                        let known = if square < 0.0 { &known[..] } else { &known[..1] };
-                        // Twofold roots are known to the root of the rounding.
-                        let near = [x - y, x - y + 0.1, x - y - 0.1];
-                        let apart = near.iter().fold(1.0, |least: f64, d| least.min(d.abs()));
-                        let most = if square == 0.0 || apart < 1e-3 { 1e-4 } else { 1e-11 };
-                        for known in known {
-                            let off = roots[..found].iter().map(|r| (r - known).abs());
-                            let off = off.fold(f64::INFINITY, f64::min);
-                            assert!(off <= most * (1.0 + x.abs().max(y.abs())), "{i} {j} {off:e}");
-                        }
+        for x in places.into_iter().chain([1e9, -1e14, 1e30]) {
+            // One root, and two that are real or y ± 0.1i.
+            for (y, square) in places.into_iter().flat_map(|y| [(y, -0.01), (y, 0.01)]) {
+                for leading in [1e-8, -3.0, 1e8] {
+                    // (x − r)((x − y)² + square)
+                    let [q0, q1] = [y * y + square, -2.0 * y];
+                    let cubic = [-x * q0, q0 - x * q1, q1 - x, 1.0].map(|c| leading * c);
+                    let (roots, found) = cubic_roots(cubic);
+                    let known = [x, y - 0.1, y + 0.1];
+                    let known = if square < 0.0 { &known[..] } else { &known[..1] };
+                    // Twofold roots are known to the root of the rounding.
+                    let is_twofold =
+                        square < 0.0 && [x - y + 0.1, x - y - 0.1].iter().any(|d| d.abs() < 1e-3);
+                    assert!(is_twofold || found == known.len(), "{x} {y} {square}: {found}");
+                    for &known in known {
+                        let off = roots[..found].iter().map(|r| (r - known).abs());
+                        let off = off.fold(f64::INFINITY, f64::min);
+                        // What rounding of the coefficients makes of the value, and that of the root.
+                        let sizes = cubic.map(f64::abs);
+                        let slope = horner(&[cubic[1], 2.0 * cubic[2], 3.0 * cubic[3]], known);
+                        let moved = 8e-16 * horner(&sizes, known.abs()) / slope.abs();
+                        let most = if is_twofold { 1e-6 } else { moved + 4e-16 * known.abs() };
+                        assert!(off <= most, "{x} {y} {square}: {off:e} {most:e}");
                     }
                 }
             }
+        }
+    }
+
+    /// The real root of 2a²x³ + 3abx² + 9b²x + c, as a curve's curvature in the middle, 2a, goes through zero.
+    #[test]
+    fn a_root_beside_two_that_go_far_away_is_kept() {
+        let (b, c) = (0.3, -0.2);
+        for decade in 0..=300 {
+            let a = 10f64.powi(-decade);
+            let (roots, count) = cubic_roots([c, 9.0 * b * b, 3.0 * a * b, 2.0 * a * a]);
+            let value = |x: f64| horner(&[c, 9.0 * b * b, 3.0 * a * b, 2.0 * a * a], x);
+            let found = roots[..count].iter().find(|x| value(**x).abs() < 1e-15);
+            assert!(found.is_some(), "{a:e}: {roots:?}");
         }
     }
 
@@ -174,7 +215,7 @@ mod tests {
         assert!((roots[0] - 2.0).abs() < 1e-15 && (roots[1] - 3.0).abs() < 1e-15 && count == 2);
         assert_eq!(cubic_roots([1.0, 2.0, 0.0, 0.0]), ([-0.5, 0.0, 0.0], 1));
         assert_eq!(cubic_roots([1.0, 0.0, 0.0, 0.0]).1, 0);
-        assert_eq!(cubic_roots([0.0, 0.0, 0.0, 2.0]), ([0.0; 3], 3));
+        assert_eq!(cubic_roots([0.0, 0.0, 0.0, 2.0]), ([0.0; 3], 1));
         for bad in [f64::NAN, f64::INFINITY] {
             let (roots, count) = cubic_roots([bad, 1.0, 1.0, 1.0]);
             assert!(roots[..count].iter().all(|root| !root.is_infinite()), "{roots:?}");

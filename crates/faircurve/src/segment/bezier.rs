@@ -115,7 +115,7 @@ impl ParametricCurve for UnitBezier {
         let mean = (stretch[0] + stretch[1] + stretch[2]) / 3.0;
         let most = NEAR * NEAR * mean.norm_sqr();
         let is_gentle = stretch.iter().all(|v| (v - mean).norm_sqr() <= most);
-        (is_gentle && most > 0.0).then(|| (to - from) * length_by_sixteen_nodes(stretch))
+        (is_gentle && most.is_normal()).then(|| (to - from) * length_by_sixteen_nodes(stretch))
     }
 
     fn gentle_directions(&self) -> [f64; 2] {

@@ -6,7 +6,7 @@ use kurbo::{Point, Vec2};
 use num_complex::Complex64;
 
 use crate::frame::ChordAngles;
-use crate::numeric::trig::{argument, cis, sin_cos};
+use crate::numeric::trig::{argument, unit_vector};
 use crate::segment::{PolynomialSpiral, Segment};
 use crate::two_param::shape::{SegmentEnds, SegmentShape};
 
@@ -48,8 +48,8 @@ pub fn biarc(angles: ChordAngles) -> Option<Biarc> {
     // ψ = −difference/2 + off. With c, s for half the turning and C, S for half the difference,
     // sin ψ = −cS and tan off = S·(√(1 − c²S²) − cC)/(C·√(1 − c²S²) + cS²), here without
     // cancellation.
-    let (s, c) = sin_cos(turning / 2.0);
-    let (big_s, big_c) = sin_cos(difference / 2.0);
+    let Complex64 { re: c, im: s } = unit_vector(turning / 2.0);
+    let Complex64 { re: big_c, im: big_s } = unit_vector(difference / 2.0);
     let cos_psi = big_c.hypot(big_s * s);
     let share = (2.0 - difference.abs() / FRAC_PI_2).clamp(0.0, 1.0);
     let sum = cos_psi + c * big_c;
@@ -61,8 +61,8 @@ pub fn biarc(angles: ChordAngles) -> Option<Biarc> {
         return None;
     }
     // The law of sines in the triangle of the three chords.
-    let chord = if turning == 0.0 { 0.5 } else { sin_cos(turning / 4.0 + off / 2.0).0 / s };
-    let joint = cis(arcs[0] / 2.0 - theta0) * chord;
+    let chord = if turning == 0.0 { 0.5 } else { unit_vector(turning / 4.0 + off / 2.0).im / s };
+    let joint = unit_vector(arcs[0] / 2.0 - theta0) * chord;
     Some(Biarc { joint, turning: arcs })
 }
 

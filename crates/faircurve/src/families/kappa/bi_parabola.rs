@@ -2,11 +2,12 @@
 //! segment, that meet with the same tangent and, up to sign, the same curvature.
 
 use kurbo::{Point, Vec2};
+use num_complex::Complex64;
 
 use super::parabolas::parabola;
 use crate::frame::{ChordAngles, EndCurvature, direction};
 use crate::numeric::roots::monotone_root;
-use crate::numeric::trig::sin_cos;
+use crate::numeric::trig::{sin_cos, unit_vector};
 use crate::segment::Segment;
 use crate::two_param::curvature_map::{CurvatureMap, EndCurvatures, SegmentContext};
 use crate::two_param::shape::{SegmentEnds, SegmentShape};
@@ -38,7 +39,7 @@ impl BiParabola {
     fn new(ChordAngles { theta0, theta1 }: ChordAngles) -> BiParabola {
         // |sin φ| ≤ 1/3, and the equation's sign changes between.
         let most = (1.0f64 / 3.0).asin();
-        let sin = |angle: f64| sin_cos(angle).0;
+        let sin = |angle: f64| unit_vector(angle).im;
         let across = |phi: f64| {
             let (mu, _) = share(phi + theta0, theta1 - phi);
             3.0 * sin(phi) - mu * sin(phi + 2.0 * theta0) + (1.0 - mu) * sin(2.0 * theta1 - phi)
@@ -46,7 +47,7 @@ impl BiParabola {
         let phi = monotone_root(across, -most, most).unwrap_or(0.0);
         let (alpha, beta) = (phi + theta0, theta1 - phi);
         let (mu, bend) = share(alpha, beta);
-        let cos = |angle: f64| sin_cos(angle).1;
+        let cos = |angle: f64| unit_vector(angle).re;
         let along =
             3.0 * cos(phi) + mu * cos(phi + 2.0 * theta0) + (1.0 - mu) * cos(2.0 * theta1 - phi);
         BiParabola { alpha, beta, phi, mu, leg: 2.0 / along, bend }
@@ -108,7 +109,7 @@ fn finite(slope: f64) -> f64 {
 
 /// μ, and the sum that it divides.
 fn share(alpha: f64, beta: f64) -> (f64, f64) {
-    let [p, q] = [alpha, beta].map(|angle| sin_cos(2.0 * angle).0.abs());
+    let [p, q] = [alpha, beta].map(|angle| unit_vector(2.0 * angle).im.abs());
     (if p + q > 0.0 { p / (p + q) } else { 0.5 }, p + q)
 }
 
@@ -134,14 +135,16 @@ impl SegmentShape for BiParabolas {
         let chord = end - start;
         let (length, towards) = (chord.hypot(), direction(chord));
         let leg = |direction: f64, part: f64| {
-            let (sin, cos) = sin_cos(towards + direction);
-            Vec2::new(cos, sin) * length * part
+            let Complex64 { re, im } = unit_vector(towards + direction);
+            Vec2::new(re, im) * length * part
         };
         let (before, after) = (found.mu * found.leg, (1.0 - found.mu) * found.leg);
-        let first =
-            [leg(-ends.angles.theta0, before * sin_cos(found.alpha).1), leg(found.phi, before)];
+        let first = [
+            leg(-ends.angles.theta0, before * unit_vector(found.alpha).re),
+            leg(found.phi, before),
+        ];
         let second =
-            [leg(found.phi, after), leg(ends.angles.theta1, after * sin_cos(found.beta).1)];
+            [leg(found.phi, after), leg(ends.angles.theta1, after * unit_vector(found.beta).re)];
         let joint = start + first[0] + first[1];
         if !joint.is_finite() {
             // Tangents that no two parabolas have; the report names the knots that this breaks.

@@ -4,9 +4,10 @@
 use std::sync::Arc;
 
 use kurbo::Point;
+use num_complex::Complex64;
 
 use crate::frame::ChordAngles;
-use crate::numeric::trig::sin_cos;
+use crate::numeric::trig::unit_vector;
 use crate::segment::{Measured, Segment, UnitBezier};
 use crate::two_param::shape::{SegmentEnds, SegmentShape};
 
@@ -44,12 +45,12 @@ pub fn potrace_arms(angles: ChordAngles) -> [f64; 2] {
     const SHORTEST: f64 = 0.1;
     const LONGEST: f64 = 4.0;
     let ChordAngles { theta0, theta1 } = angles;
-    let (sin, cos) = sin_cos((theta0.abs() + theta1.abs()) / 4.0);
+    let Complex64 { re: cos, im: sin } = unit_vector((theta0.abs() + theta1.abs()) / 4.0);
     // (1 + t²)²/t = 1/(sin cos³).
     let six = 6.0 * sin * (cos * cos * cos).max(f64::MIN_POSITIVE);
     [theta1, theta0].map(|opposite| {
         // Of straight segments, any arm will do.
-        let arm = if sin == 0.0 { 1.0 / 3.0 } else { sin_cos(opposite.abs()).0 / six };
+        let arm = if sin == 0.0 { 1.0 / 3.0 } else { unit_vector(opposite.abs()).im / six };
         arm.clamp(SHORTEST, LONGEST)
     })
 }
