@@ -69,7 +69,7 @@ impl Run {
 
     /// The chord vector of segment `index`.
     pub fn chord(&self, index: usize) -> Vec2 {
-        let next = if index + 1 == self.knots.len() { 0 } else { index + 1 };
+        let next = around(index + 1, self.knots.len());
         self.knots[next].point - self.knots[index].point
     }
 
@@ -521,8 +521,7 @@ impl Plan {
 
     /// That point of the input and the next.
     fn ends_from(&self, point: usize) -> (Point, Point) {
-        let next = if point + 1 == self.points.len() { 0 } else { point + 1 };
-        (self.points[point], self.points[next])
+        (self.points[point], self.points[around(point + 1, self.points.len())])
     }
 
     /// The segments of all the input's points, of those between nodes: lines where there is none, and between

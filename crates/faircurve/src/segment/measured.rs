@@ -69,8 +69,8 @@ const MOST_PANELS: usize = 2000;
 const LARGEST: f64 = 1e100;
 
 impl<C: ParametricCurve> Measured<C> {
-    /// Measures a curve. Takes sixteen evaluations of the velocity where it is gentle, some 50 where that
-    /// isn't known but found.
+    /// Measures a curve. Takes sixteen evaluations of the velocity for each gentle stretch that it is halved
+    /// into, some 50 for one of which that isn't known but found.
     pub fn new(curve: C) -> Self {
         match curve.gentle_length(0.0, 1.0) {
             // A single panel.

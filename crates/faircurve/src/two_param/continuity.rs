@@ -713,7 +713,7 @@ impl Turned {
     ///
     /// Roots are taken of curvature over a common size, which is held while differentiating: where
     /// curvatures agree, it doesn't matter.
-    #[inline(never)]
+    #[inline(never)] // rare
     fn straightened_angle_to(&self, other: &Turned, order: f64) -> (f64, [f64; 2]) {
         /// Curvatures over their common size count as no smaller in derivatives.
         const SMALLEST: f64 = 1e-200;
