@@ -89,14 +89,13 @@ pub fn convert(curve: &Curve, options: &Options) -> Conversion {
         return result;
     };
     result.path.move_to(first);
-    // Arc length so far.
-    let mut start = 0.0;
+    // The arc length at which a stretch starts, and how many segments that counts.
+    let (mut start, mut counted) = (0.0, 0);
     let segments = simple_segments(curve);
     let mut i = 0;
     while i < segments.len() {
         if let Some(exact) = segments[i].beziers() {
             exact.into_iter().for_each(|bezier| result.append_exact(bezier));
-            start += segments[i].length();
             i += 1;
             continue;
         }
@@ -109,8 +108,9 @@ pub fn convert(curve: &Curve, options: &Options) -> Conversion {
                 end += 1;
             }
         }
+        start += segments[counted..i].iter().map(Segment::length).sum::<f64>();
+        counted = i;
         append_stretch(&mut result, &segments[i..end], start, options);
-        start += segments[i..end].iter().map(Segment::length).sum::<f64>();
         i = end;
     }
     if curve.is_closed() {

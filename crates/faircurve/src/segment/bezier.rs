@@ -1,10 +1,13 @@
 //! Béziers as shapes of segments.
 
+use std::f64::consts::FRAC_PI_2;
+
 use kurbo::common::solve_quadratic;
 use kurbo::{CubicBez, ParamCurve, PathSeg, Point, Rect};
 use num_complex::Complex64;
 
 use super::ParametricCurve;
+use super::measured::LONGEST_UNMEASURED;
 use crate::numeric::gauss_legendre::GAUSS_16;
 use crate::numeric::trig::{argument, cis};
 
@@ -118,11 +121,18 @@ impl ParametricCurve for UnitBezier {
         (is_gentle && most.is_normal()).then(|| (to - from) * length_by_sixteen_nodes(stretch))
     }
 
-    fn gentle_directions(&self) -> [f64; 2] {
+    /// Where no leg points backwards, the direction stays within a quarter turn of the chord's.
+    fn directions(&self) -> Option<[f64; 2]> {
+        let is_ordinary =
+            |v: &Complex64| v.re > 0.0 && v.re.max(v.im.abs()) < LONGEST_UNMEASURED / 2.0;
+        if !self.velocity.iter().all(is_ordinary) {
+            return None;
+        }
+        let [first, _, last] = self.velocity;
         match self.directions {
             // Of arms that point forwards.
-            Some(known) if known.iter().all(|direction| direction.abs() < 1.0) => known,
-            _ => [argument(self.velocity[0]), argument(self.velocity[2])],
+            Some(known) if known.iter().all(|direction| direction.abs() < FRAC_PI_2) => Some(known),
+            _ => Some([argument(first), argument(last)]),
         }
     }
 }

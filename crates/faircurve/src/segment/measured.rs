@@ -1,6 +1,7 @@
 //! A curve given by any parameter, measured by arc length.
 
 use std::fmt;
+use std::sync::OnceLock;
 
 use kurbo::PathSeg;
 use num_complex::Complex64;
@@ -32,21 +33,31 @@ pub trait ParametricCurve: fmt::Debug + Send + Sync {
         None
     }
 
-    /// The directions at both ends, in radians, of a curve that is gentle as a whole.
-    fn gentle_directions(&self) -> [f64; 2] {
-        [0.0, 1.0].map(|u| argument(self.velocity(u)))
+    /// The directions at both ends, in radians and continuous along the curve, where they are known before it is
+    /// measured, and that it is no longer than 1000. `None` for others.
+    fn directions(&self) -> Option<[f64; 2]> {
+        None
     }
 }
 
-/// A [`ParametricCurve`] with its arc length measured to about 1e-15.
+/// A [`ParametricCurve`] with its arc length, to about 1e-15: measured when it is first asked for, where no more
+/// than the ends matter before.
 #[derive(Clone, Debug)]
 pub struct Measured<C> {
     curve: C,
     ends: [CurveEnd; 2],
+    arcs: OnceLock<Arcs>,
+}
+
+/// How arc length and direction go along a curve.
+#[derive(Clone, Debug)]
+struct Arcs {
     length: f64,
-    /// The panels after the first; mostly none.
+    /// Those after the first; mostly none.
     later: Vec<Panel>,
     breaks: Vec<f64>,
+    /// The direction at the end.
+    direction: f64,
 }
 
 /// A stretch of the parameter along which the curve turns little, and sixteen nodes suffice. Its end
@@ -67,114 +78,36 @@ const NEGLIGIBLE: f64 = 0.01;
 const MOST_PANELS: usize = 2000;
 /// Larger curvatures (at cusps) are written as this.
 const LARGEST: f64 = 1e100;
+/// No curve with known [directions](ParametricCurve::directions) is longer.
+pub(super) const LONGEST_UNMEASURED: f64 = 1e3;
 
 impl<C: ParametricCurve> Measured<C> {
-    /// Measures a curve. Takes sixteen evaluations of the velocity for each gentle stretch that it is halved
-    /// into, some 50 for one of which that isn't known but found.
+    /// A curve to be measured. That takes sixteen evaluations of the velocity for each gentle stretch that it is
+    /// halved into, some 50 for one of which that isn't known but found.
     pub fn new(curve: C) -> Self {
-        match curve.gentle_length(0.0, 1.0) {
-            // A single panel.
-            Some(length) => {
-                let directions = curve.gentle_directions();
-                Measured::with(curve, directions, length.max(1.0))
-            }
-            None => Measured::by_panels(curve),
-        }
-    }
-
-    /// As many panels as it takes.
-    #[inline(never)] // for the size of the web's module
-    fn by_panels(curve: C) -> Self {
-        let start = argument(tangent(&curve, 0.0, true));
-        let mut measured = Measured::with(curve, [start; 2], 0.0);
-        // What lengths are known to. Where a long curve nearly stands still, its velocity is a small
-        // difference of large numbers: less would be noise, and panels without end.
-        let speed = |u: f64| size(measured.curve.velocity(u));
-        let roughly = [0.0, 0.25, 0.5, 0.75, 1.0].map(speed).iter().sum::<f64>() / 5.0;
-        let noise = 4.0 * f64::EPSILON * (1.0 + roughly);
-        measured.measure([0.0, 1.0], None, noise, 50);
-        // What isn't a number stays so: the segment will be a straight line.
-        if measured.length < 1.0 {
-            measured.length = 1.0;
-        }
-        measured.breaks = measured.later.iter().map(|panel| panel.s).collect();
-        measured
-    }
-
-    fn with(curve: C, directions: [f64; 2], length: f64) -> Self {
+        let arcs = OnceLock::new();
+        let directions = curve.directions().unwrap_or_else(|| {
+            let start = argument(tangent(&curve, 0.0, true));
+            let measured = arcs.get_or_init(|| Arcs::of(&curve, start));
+            [start, measured.direction]
+        });
         let end = |i: usize| CurveEnd {
             direction: directions[i],
             curvature: curvature(&curve, i as f64),
         };
         let ends = [end(0), end(1)];
-        Measured { curve, ends, length, later: Vec::new(), breaks: Vec::new() }
+        Measured { curve, ends, arcs }
     }
 
-    fn arc(&self, from: f64, to: f64) -> f64 {
-        gauss_16(&|u| size(self.curve.velocity(u)), from, to)
+    fn arcs(&self) -> &Arcs {
+        self.arcs.get_or_init(|| Arcs::of(&self.curve, self.ends[0].direction))
     }
-
-    /// Appends the panel from `u` to `to`, of that length.
-    fn push(&mut self, [u, to]: [f64; 2], length: f64) {
-        let direction = &mut self.ends[1].direction;
-        if u > 0.0 {
-            self.later.push(Panel { u, s: self.length, direction: *direction });
-        }
-        self.length += length;
-        let (a, b) = (tangent(&self.curve, u, true), tangent(&self.curve, to, false));
-        *direction += argument(b * a.conj());
-        if to < 1.0 {
-            // Through a cusp just at the joint.
-            *direction += argument(tangent(&self.curve, to, true) * b.conj());
-        }
-    }
-
-    /// Appends the panels from `u` to `to`, which isn't gentle; sixteen nodes may have measured the whole.
-    fn measure(&mut self, [u, to]: [f64; 2], whole: Option<f64>, noise: f64, depth: usize) {
-        let middle = (u + to) / 2.0;
-        let halves = [[u, middle], [middle, to]];
-        let gentle = halves.map(|[from, to]| self.curve.gentle_length(from, to));
-        if depth > 0 && gentle.iter().any(Option::is_some) {
-            for (half, gentle) in halves.into_iter().zip(gentle) {
-                match gentle {
-                    Some(length) => self.push(half, length),
-                    None => self.measure(half, None, noise, depth - 1),
-                }
-            }
-            return;
-        }
-        let whole = whole.unwrap_or_else(|| self.arc(u, to));
-        let (left, right) = (self.arc(u, middle), self.arc(middle, to));
-        let is_short = whole < NEGLIGIBLE * noise;
-        let is_even = (left + right - whole).abs() <= noise;
-        let is_enough = depth == 0 || self.later.len() + 1 >= MOST_PANELS || !whole.is_finite();
-        if is_enough || is_short || (is_even && self.turn(u, to) < MOST_TURN) {
-            self.push([u, to], left + right);
-            return;
-        }
-        self.measure(halves[0], Some(left), noise, depth - 1);
-        self.measure(halves[1], Some(right), noise, depth - 1);
-    }
-
-    /// The sum of the sines of what the curve turns between five places; infinite where it turns by more
-    /// than a right angle between two.
-    fn turn(&self, from: f64, to: f64) -> f64 {
-        let at = [0.0, 1.0, 2.0, 3.0, 4.0].map(|i| {
-            let u = from + (to - from) * i / 4.0;
-            tangent(&self.curve, u, i < 4.0)
-        });
-        let sine = |pair: &[Complex64]| {
-            let turn = pair[1] * pair[0].conj();
-            if turn.re > 0.0 { turn.im.abs() } else { f64::INFINITY }
-        };
-        at.windows(2).map(sine).sum()
-    }
-
     /// The last panel of which `key` holds, as it does of those up to some place, and the one after it.
     fn panel_at(&self, key: impl Fn(&Panel) -> bool) -> (Panel, Option<&Panel>) {
-        let after = self.later.partition_point(key);
+        let later = &self.arcs().later;
+        let after = later.partition_point(key);
         let first = Panel { u: 0.0, s: 0.0, direction: self.ends[0].direction };
-        (after.checked_sub(1).map_or(first, |index| self.later[index]), self.later.get(after))
+        (after.checked_sub(1).map_or(first, |index| later[index]), later.get(after))
     }
 
     /// The parameter at arc length `s`.
@@ -183,17 +116,17 @@ impl<C: ParametricCurve> Measured<C> {
         const MOST_STEPS: usize = 60;
         if s <= 0.0 {
             return 0.0;
-        } else if s >= self.length {
+        } else if s == f64::INFINITY || s >= self.length() {
             return 1.0;
         }
         let (panel, next) = self.panel_at(|panel| panel.s <= s);
         let end = next.map_or(1.0, |next| next.u);
         let wanted = s - panel.s;
-        let whole = next.map_or(self.length, |next| next.s) - panel.s;
+        let whole = next.map_or(self.length(), |next| next.s) - panel.s;
         let (mut low, mut high) = (panel.u, end);
         let mut u = panel.u + (end - panel.u) * if whole > 0.0 { wanted / whole } else { 0.5 };
         for _ in 0..MOST_STEPS {
-            let over = self.arc(panel.u, u) - wanted;
+            let over = arc(&self.curve, panel.u, u) - wanted;
             if over == 0.0 {
                 return u;
             } else if over > 0.0 {
@@ -216,8 +149,100 @@ impl<C: ParametricCurve> Measured<C> {
     pub fn arc_length(&self, u: f64) -> f64 {
         let u = u.clamp(0.0, 1.0);
         let (panel, _) = self.panel_at(|panel| panel.u <= u);
-        (panel.s + self.arc(panel.u, u)).min(self.length)
+        (panel.s + arc(&self.curve, panel.u, u)).min(self.length())
     }
+}
+
+impl Arcs {
+    #[inline(never)] // for the size of the web's module
+    fn of(curve: &impl ParametricCurve, start: f64) -> Arcs {
+        let mut arcs =
+            Arcs { length: 0.0, later: Vec::new(), breaks: Vec::new(), direction: start };
+        if let Some(length) = curve.gentle_length(0.0, 1.0) {
+            // A single panel.
+            arcs.push(curve, [0.0, 1.0], length);
+        } else {
+            // What lengths are known to. Where a long curve nearly stands still, its velocity is a small
+            // difference of large numbers: less would be noise, and panels without end.
+            let speed = |u: f64| size(curve.velocity(u));
+            let roughly = [0.0, 0.25, 0.5, 0.75, 1.0].map(speed).iter().sum::<f64>() / 5.0;
+            let noise = 4.0 * f64::EPSILON * (1.0 + roughly);
+            arcs.measure(curve, [0.0, 1.0], None, noise, 50);
+        }
+        // What isn't a number stays so: the segment will be a straight line.
+        if arcs.length < 1.0 {
+            arcs.length = 1.0;
+        }
+        arcs.breaks = arcs.later.iter().map(|panel| panel.s).collect();
+        arcs
+    }
+
+    /// Appends the panel from `u` to `to`, of that length.
+    fn push(&mut self, curve: &impl ParametricCurve, [u, to]: [f64; 2], length: f64) {
+        if u > 0.0 {
+            self.later.push(Panel { u, s: self.length, direction: self.direction });
+        }
+        self.length += length;
+        let (a, b) = (tangent(curve, u, true), tangent(curve, to, false));
+        self.direction += argument(b * a.conj());
+        if to < 1.0 {
+            // Through a cusp just at the joint.
+            self.direction += argument(tangent(curve, to, true) * b.conj());
+        }
+    }
+
+    /// Appends the panels from `u` to `to`, which isn't gentle; sixteen nodes may have measured the whole.
+    fn measure(
+        &mut self,
+        curve: &impl ParametricCurve,
+        [u, to]: [f64; 2],
+        whole: Option<f64>,
+        noise: f64,
+        depth: usize,
+    ) {
+        let middle = (u + to) / 2.0;
+        let halves = [[u, middle], [middle, to]];
+        let gentle = halves.map(|[from, to]| curve.gentle_length(from, to));
+        if depth > 0 && gentle.iter().any(Option::is_some) {
+            for (half, gentle) in halves.into_iter().zip(gentle) {
+                match gentle {
+                    Some(length) => self.push(curve, half, length),
+                    None => self.measure(curve, half, None, noise, depth - 1),
+                }
+            }
+            return;
+        }
+        let whole = whole.unwrap_or_else(|| arc(curve, u, to));
+        let (left, right) = (arc(curve, u, middle), arc(curve, middle, to));
+        let is_short = whole < NEGLIGIBLE * noise;
+        let is_even = (left + right - whole).abs() <= noise;
+        let is_enough = depth == 0 || self.later.len() + 1 >= MOST_PANELS || !whole.is_finite();
+        if is_enough || is_short || (is_even && turn(curve, u, to) < MOST_TURN) {
+            self.push(curve, [u, to], left + right);
+            return;
+        }
+        self.measure(curve, halves[0], Some(left), noise, depth - 1);
+        self.measure(curve, halves[1], Some(right), noise, depth - 1);
+    }
+}
+
+/// The length between two parameters, by sixteen nodes.
+fn arc(curve: &impl ParametricCurve, from: f64, to: f64) -> f64 {
+    gauss_16(&|u| size(curve.velocity(u)), from, to)
+}
+
+/// The sum of the sines of what the curve turns between five places; infinite where it turns by more
+/// than a right angle between two.
+fn turn(curve: &impl ParametricCurve, from: f64, to: f64) -> f64 {
+    let at = [0.0, 1.0, 2.0, 3.0, 4.0].map(|i| {
+        let u = from + (to - from) * i / 4.0;
+        tangent(curve, u, i < 4.0)
+    });
+    let sine = |pair: &[Complex64]| {
+        let turn = pair[1] * pair[0].conj();
+        if turn.re > 0.0 { turn.im.abs() } else { f64::INFINITY }
+    };
+    at.windows(2).map(sine).sum()
 }
 
 /// The absolute value, without the care that `norm` takes where it isn't needed.
@@ -296,7 +321,11 @@ fn curvature_jet(v: [Complex64; 5]) -> [f64; 4] {
 
 impl<C: ParametricCurve> UnitCurve for Measured<C> {
     fn length(&self) -> f64 {
-        self.length
+        self.arcs().length
+    }
+
+    fn length_bound(&self) -> f64 {
+        self.arcs.get().map_or(LONGEST_UNMEASURED, |arcs| arcs.length)
     }
 
     fn point(&self, s: f64) -> Complex64 {
@@ -306,7 +335,7 @@ impl<C: ParametricCurve> UnitCurve for Measured<C> {
     fn direction(&self, s: f64) -> f64 {
         if s <= 0.0 {
             return self.ends[0].direction;
-        } else if s >= self.length {
+        } else if s >= self.length() {
             return self.ends[1].direction;
         }
         let (panel, _) = self.panel_at(|panel| panel.s <= s);
@@ -322,7 +351,7 @@ impl<C: ParametricCurve> UnitCurve for Measured<C> {
     fn curvature(&self, s: f64) -> f64 {
         if s <= 0.0 {
             return self.ends[0].curvature;
-        } else if s >= self.length {
+        } else if s >= self.length() {
             return self.ends[1].curvature;
         }
         curvature(&self.curve, self.parameter(s))
@@ -333,7 +362,7 @@ impl<C: ParametricCurve> UnitCurve for Measured<C> {
     }
 
     fn breaks(&self) -> &[f64] {
-        &self.breaks
+        &self.arcs().breaks
     }
 
     fn curvature_bounds(&self, _from: f64, _to: f64) -> [f64; 3] {

@@ -44,34 +44,36 @@ pub enum Shape {
 #[derive(Clone, Debug)]
 pub struct UnitPiece {
     curve: Arc<dyn UnitCurve>,
-    from: f64,
-    to: f64,
+    /// The arc lengths of the curve at which it starts and ends, where it isn't the whole.
+    part: Option<[f64; 2]>,
     backwards: bool,
-    /// Units per unit of the curve.
-    scale: f64,
 }
 
 impl PartialEq for UnitPiece {
     /// Whether they are the same piece of the same curve, not of an equal one.
     fn eq(&self, other: &Self) -> bool {
-        let range = |piece: &UnitPiece| (piece.from, piece.to, piece.backwards);
+        let range = |piece: &UnitPiece| (piece.from(), piece.to(), piece.backwards);
         Arc::ptr_eq(&self.curve, &other.curve) && range(self) == range(other)
     }
 }
 
 impl UnitPiece {
-    fn length(&self) -> f64 {
-        self.to - self.from
+    fn from(&self) -> f64 {
+        self.part.map_or(0.0, |[from, _]| from)
     }
 
-    fn is_whole(&self) -> bool {
-        self.from == 0.0 && self.to == self.curve.length()
+    fn to(&self) -> f64 {
+        self.part.map_or_else(|| self.curve.length(), |[_, to]| to)
+    }
+
+    fn length(&self) -> f64 {
+        self.to() - self.from()
     }
 
     /// The curve's arc length for one of the piece's.
     fn place(&self, s: f64) -> f64 {
-        let s = if self.backwards { self.to - s } else { self.from + s };
-        s.clamp(self.from, self.to)
+        let s = if self.backwards { self.to() - s } else { self.from() + s };
+        s.clamp(self.from(), self.to())
     }
 }
 
@@ -85,7 +87,9 @@ pub struct Segment {
     start: Point,
     end: Point,
     shape: Shape,
-    length: f64,
+    /// The drawing's units per unit of the shape's own arc length: of a spiral or an elastica, whose is 1, the
+    /// length; and so of a line and of a chain.
+    scale: f64,
     /// Direction of the shape's own x axis: for a spiral or an elastica, that of the middle of the arc; for a unit
     /// curve, that of the whole curve's chord; for a line, everywhere.
     heading: f64,
@@ -117,8 +121,8 @@ impl Segment {
     /// A straight line that remembers a direction of its own: for a segment of length 0, which has
     /// none.
     pub fn line_with_direction(start: Point, end: Point, direction: f64) -> Self {
-        let length = (end - start).hypot();
-        Segment { start, end, shape: Shape::Line, length, heading: direction }
+        let scale = (end - start).hypot();
+        Segment { start, end, shape: Shape::Line, scale, heading: direction }
     }
 
     /// A spiral scaled and turned so that its chord is that from `start` to `end`.
@@ -141,9 +145,9 @@ impl Segment {
         if chord == Vec2::ZERO || !(local.length > SHORTEST_CHORD) {
             return Segment::line(start, end);
         }
-        let length = chord.hypot() / local.length;
+        let scale = chord.hypot() / local.length;
         let heading = direction(chord) - local.direction;
-        Segment { start, end, shape: Shape::Spiral(spiral), length, heading }
+        Segment { start, end, shape: Shape::Spiral(spiral), scale, heading }
     }
 
     /// The piece of an elastica from s = −½ to ½, scaled and turned so that its chord is that from
@@ -155,22 +159,21 @@ impl Segment {
         if chord == Vec2::ZERO || !(local.norm() > SHORTEST_CHORD) || !local.is_finite() {
             return Segment::line(start, end);
         }
-        let length = chord.hypot() / local.norm();
+        let scale = chord.hypot() / local.norm();
         let heading = direction(chord) - argument(local);
-        Segment { start, end, shape: Shape::Elastica(elastica), length, heading }
+        Segment { start, end, shape: Shape::Elastica(elastica), scale, heading }
     }
 
     /// A unit curve scaled and turned so that its chord is that from `start` to `end`; the straight
     /// line if they coincide, or if the curve's length isn't finite.
     pub fn unit_curve(start: Point, end: Point, curve: Arc<dyn UnitCurve>) -> Self {
         let chord = end - start;
-        let (scale, to) = (chord.hypot(), curve.length());
-        let length = scale * to;
-        if chord == Vec2::ZERO || !length.is_finite() {
+        let scale = chord.hypot();
+        if chord == Vec2::ZERO || !(scale * curve.length_bound()).is_finite() {
             return Segment::line(start, end);
         }
-        let piece = UnitPiece { curve, from: 0.0, to, backwards: false, scale };
-        Segment { start, end, shape: Shape::Unit(piece), length, heading: direction(chord) }
+        let shape = Shape::Unit(UnitPiece { curve, part: None, backwards: false });
+        Segment { start, end, shape, scale, heading: direction(chord) }
     }
 
     /// The same, with the direction from `start` to `end` given: where it is short, better known than
@@ -223,7 +226,7 @@ impl Segment {
         let mut members: Vec<Segment> = members.into_iter().collect();
         for i in 1..members.len() {
             // Direction is continuous through the joints, not only up to whole turns.
-            let arriving = members[i - 1].direction(members[i - 1].length);
+            let arriving = members[i - 1].direction(members[i - 1].length());
             let off = members[i].direction(0.0) - arriving;
             members[i].heading += wrap_angle(off) - off;
         }
@@ -233,7 +236,7 @@ impl Segment {
         Segment {
             start: members[0].start,
             end: members[members.len() - 1].end,
-            length: members.iter().map(Segment::length).sum(),
+            scale: members.iter().map(Segment::length).sum(),
             heading: 0.0,
             shape: Shape::Chain(members.into()),
         }
@@ -261,8 +264,8 @@ impl Segment {
         if chord == Vec2::ZERO {
             return ChordAngles::default();
         }
-        let (start, end) = (self.direction(0.0), self.direction(self.length));
-        ChordAngles::from_directions(start, direction(chord), end)
+        let [start, end] = self.ends();
+        ChordAngles::from_directions(start.direction, direction(chord), end.direction)
     }
 
     /// k₀ … k₃ of eq. 8.1 for a polynomial spiral, zeros for a line; `None` for other shapes.
@@ -281,13 +284,14 @@ impl Segment {
             Shape::Line => Some(vec![PathSeg::Line(kurbo::Line::new(self.start, self.end))]),
             Shape::Spiral(_) | Shape::Elastica(_) => None,
             Shape::Unit(piece) => {
-                let unit = piece.curve.bezier(piece.from, piece.to)?;
+                let [from, to] = piece.part.unwrap_or([0.0, f64::INFINITY]);
+                let unit = piece.curve.bezier(from, to)?;
                 let unit = if piece.backwards { unit.reverse() } else { unit };
                 let Complex64 { re, im } = unit_vector(self.heading);
                 let turned = Affine::new([re, im, -im, re, 0.0, 0.0]);
                 let map = Affine::translate(self.start.to_vec2())
                     * turned
-                    * Affine::scale(piece.scale)
+                    * Affine::scale(self.scale)
                     * Affine::translate(-unit.start().to_vec2());
                 Some(vec![with_ends(map * unit, self.start, self.end)])
             }
@@ -305,7 +309,10 @@ impl Segment {
 
     /// Arc length.
     pub fn length(&self) -> f64 {
-        self.length
+        match &self.shape {
+            Shape::Unit(piece) => self.scale * piece.length(),
+            _ => self.scale,
+        }
     }
 
     /// Straight distance from start to end.
@@ -337,9 +344,9 @@ impl Segment {
     pub fn ends(&self) -> [CurveEnd; 2] {
         match &self.shape {
             Shape::Line => [CurveEnd { direction: self.heading, curvature: 0.0 }; 2],
-            Shape::Unit(piece) if piece.is_whole() => {
+            Shape::Unit(piece) if piece.part.is_none() => {
                 let [start, end] = piece.curve.ends();
-                let per_unit = 1.0 / piece.scale;
+                let per_unit = 1.0 / self.scale;
                 let place = |end: CurveEnd, turned: f64, sign: f64| CurveEnd {
                     direction: self.heading + end.direction + turned,
                     curvature: (sign * end.curvature * per_unit).clamp(f64::MIN, f64::MAX),
@@ -350,42 +357,39 @@ impl Segment {
                     [place(start, 0.0, 1.0), place(end, 0.0, 1.0)]
                 }
             }
-            Shape::Spiral(spiral) if self.length > 0.0 => [-0.5, 0.5].map(|local| CurveEnd {
+            Shape::Spiral(spiral) if self.scale > 0.0 => [-0.5, 0.5].map(|local| CurveEnd {
                 direction: self.heading + angle(spiral.k, local),
-                curvature: (curvature_jet(spiral.k, local)[0] * (1.0 / self.length))
+                curvature: (curvature_jet(spiral.k, local)[0] * (1.0 / self.scale))
                     .clamp(f64::MIN, f64::MAX),
             }),
-            _ => [0.0, self.length]
+            _ => [0.0, self.length()]
                 .map(|s| CurveEnd { direction: self.direction(s), curvature: self.curvature(s) }),
         }
     }
 
     /// Curvature at arc length `s`, in 1/units.
     pub fn curvature(&self, s: f64) -> f64 {
-        let (curvature, unit) = match &self.shape {
+        let curvature = match &self.shape {
             Shape::Line => return 0.0,
-            Shape::Spiral(spiral) => (curvature_jet(spiral.k, self.local(s))[0], self.length),
+            Shape::Spiral(spiral) => curvature_jet(spiral.k, self.local(s))[0],
             Shape::Unit(piece) => {
                 let curvature = piece.curve.curvature(self.place_on(piece, s));
-                (if piece.backwards { -curvature } else { curvature }, piece.scale)
+                if piece.backwards { -curvature } else { curvature }
             }
             Shape::Elastica(_) | Shape::Chain(_) => return self.curvature_jet(s)[0],
         };
-        (curvature * (1.0 / unit)).clamp(f64::MIN, f64::MAX)
+        (curvature * (1.0 / self.scale)).clamp(f64::MIN, f64::MAX)
     }
 
     /// Curvature at arc length `s` and its first three derivatives by arc length, the j-th in
     /// units⁻ʲ⁻¹ (eq. 8.6). Zeros on a line; huge but finite at a cusp.
     pub fn curvature_jet(&self, s: f64) -> [f64; 4] {
-        let (mut jet, unit, flips) = match &self.shape {
+        let (mut jet, flips) = match &self.shape {
             Shape::Line => return [0.0; 4],
-            Shape::Spiral(spiral) => (curvature_jet(spiral.k, self.local(s)), self.length, false),
-            Shape::Elastica(elastica) => {
-                (elastica.curvature_jet(self.local(s)), self.length, false)
-            }
+            Shape::Spiral(spiral) => (curvature_jet(spiral.k, self.local(s)), false),
+            Shape::Elastica(elastica) => (elastica.curvature_jet(self.local(s)), false),
             Shape::Unit(piece) => {
-                let jet = piece.curve.curvature_jet(self.place_on(piece, s));
-                (jet, piece.scale, piece.backwards)
+                (piece.curve.curvature_jet(self.place_on(piece, s)), piece.backwards)
             }
             Shape::Chain(members) => {
                 let (member, s) = self.member(members, s);
@@ -394,7 +398,7 @@ impl Segment {
         };
         let mut scale = 1.0;
         for (order, derivative) in jet.iter_mut().enumerate() {
-            scale /= unit;
+            scale /= self.scale;
             *derivative = (*derivative * scale).clamp(f64::MIN, f64::MAX);
             if flips && order % 2 == 0 {
                 *derivative = -*derivative;
@@ -405,23 +409,23 @@ impl Segment {
 
     /// Point at arc length `s`, clamped to the segment.
     pub fn point(&self, s: f64) -> Point {
-        let s = s.clamp(0.0, self.length);
+        let s = s.clamp(0.0, self.length());
         if s == 0.0 {
             return self.start;
-        } else if s == self.length {
+        } else if s == self.length() {
             return self.end;
         }
         match &self.shape {
-            Shape::Line => self.start.lerp(self.end, s / self.length),
+            Shape::Line => self.start.lerp(self.end, s / self.length()),
             // From the nearer end, so that ends are met and errors stay small.
             Shape::Spiral(spiral) => {
                 let local = self.local(s);
                 if local < 0.0 {
                     let along = spiro_integral_between(spiral.k, -0.5, local);
-                    self.start + self.turned(along * self.length)
+                    self.start + self.turned(along * self.scale)
                 } else {
                     let along = spiro_integral_between(spiral.k, local, 0.5);
-                    self.end - self.turned(along * self.length)
+                    self.end - self.turned(along * self.scale)
                 }
             }
             Shape::Elastica(elastica) => {
@@ -430,7 +434,7 @@ impl Segment {
                     let middle = (from + to) / 2.0;
                     let (chord, _) = elastica.moved(middle).centred_arc(to - from);
                     let turn = unit_vector(elastica.at(middle).direction);
-                    self.turned(chord * turn * self.length)
+                    self.turned(chord * turn * self.scale)
                 };
                 if local < 0.0 {
                     self.start + along(-0.5, local)
@@ -439,13 +443,12 @@ impl Segment {
                 }
             }
             Shape::Unit(piece) => {
-                let scale = piece.scale;
                 let at = |s: f64| piece.curve.point(piece.place(s));
-                let (here, end) = (at(s / scale), piece.length());
-                if 2.0 * s < self.length {
-                    self.start + self.turned((here - at(0.0)) * scale)
+                let (here, end) = (at(s / self.scale), piece.length());
+                if 2.0 * s < self.length() {
+                    self.start + self.turned((here - at(0.0)) * self.scale)
                 } else {
-                    self.end + self.turned((here - at(end)) * scale)
+                    self.end + self.turned((here - at(end)) * self.scale)
                 }
             }
             Shape::Chain(members) => {
@@ -467,15 +470,15 @@ impl Segment {
         const LONGEST_LEVER: f64 = 1e9;
         let (length, winding) = match &self.shape {
             Shape::Line => (0.0, 0.0),
-            Shape::Spiral(spiral) => (self.length, wildness(spiral.k)),
-            Shape::Elastica(elastica) => (self.length, elastica.largest_curvature()),
-            Shape::Unit(piece) => (piece.curve.length() * piece.scale, 0.0),
+            Shape::Spiral(spiral) => (self.scale, wildness(spiral.k)),
+            Shape::Elastica(elastica) => (self.scale, elastica.largest_curvature()),
+            Shape::Unit(piece) => (piece.curve.length() * self.scale, 0.0),
             Shape::Chain(members) => {
                 return members.iter().map(Segment::rounding).fold(0.0, f64::max);
             }
         };
         let wound = 1.0 + 0.1 * (winding + self.heading.abs());
-        let lever = (self.length / self.chord_length()).clamp(1.0, LONGEST_LEVER);
+        let lever = (self.length() / self.chord_length()).clamp(1.0, LONGEST_LEVER);
         let [start, end] = [self.start, self.end];
         let coordinate = start.x.abs().max(start.y.abs()).max(end.x.abs()).max(end.y.abs());
         8.0 * f64::EPSILON * (coordinate + 2.0 * length * wound * lever)
@@ -483,7 +486,7 @@ impl Segment {
 
     /// Point, direction and curvature at arc length `s`, clamped to the segment.
     pub fn at(&self, s: f64) -> CurvePoint {
-        let s = s.clamp(0.0, self.length);
+        let s = s.clamp(0.0, self.length());
         CurvePoint {
             point: self.point(s),
             direction: self.direction(s),
@@ -493,32 +496,33 @@ impl Segment {
 
     /// The piece between arc lengths `from` and `to`, clamped to the segment (eq. 8.3).
     pub fn subsegment(&self, from: f64, to: f64) -> Segment {
-        let (from, to) = (from.clamp(0.0, self.length), to.clamp(0.0, self.length));
+        let (from, to) = (from.clamp(0.0, self.length()), to.clamp(0.0, self.length()));
         let (start, end) = (self.point(from), self.point(to));
-        let length = to - from;
+        let scale = to - from;
         match &self.shape {
             Shape::Line => Segment::line_with_direction(start, end, self.heading),
             Shape::Spiral(spiral) => {
                 let shape = Shape::Spiral(spiral.piece(self.local(from), self.local(to)));
                 let heading = self.direction((from + to) / 2.0);
-                Segment { start, end, shape, length, heading }
+                Segment { start, end, shape, scale, heading }
             }
             Shape::Elastica(elastica) => {
                 let (a, b) = (self.local(from), self.local(to));
                 let shape = Shape::Elastica(elastica.moved((a + b) / 2.0).scaled(b - a));
                 let heading = self.direction((from + to) / 2.0);
-                Segment { start, end, shape, length, heading }
+                Segment { start, end, shape, scale, heading }
             }
             Shape::Unit(piece) => {
                 let (a, b) = (self.place_on(piece, from), self.place_on(piece, to));
-                let piece = UnitPiece { from: a.min(b), to: a.max(b), ..piece.clone() };
-                Segment { start, end, shape: Shape::Unit(piece), length, heading: self.heading }
+                let part = Some([a.min(b), a.max(b)]);
+                let shape = Shape::Unit(UnitPiece { part, ..piece.clone() });
+                Segment { start, end, shape, ..*self }
             }
             Shape::Chain(members) => {
                 let mut before = 0.0;
                 let mut pieces = Vec::new();
                 for member in members.iter() {
-                    let after = before + member.length;
+                    let after = before + member.length();
                     if after > from && before < to {
                         pieces.push(member.subsegment(from - before, to - before));
                     }
@@ -535,7 +539,7 @@ impl Segment {
 
     /// The same segment travelled the other way.
     pub fn reversed(&self) -> Segment {
-        let (start, end, length) = (self.end, self.start, self.length);
+        let (start, end) = (self.end, self.start);
         let (shape, heading) = match &self.shape {
             Shape::Line => (Shape::Line, self.heading + PI),
             // θ(s) → θ(−s) + π: odd orders of curvature keep their sign, even ones lose it.
@@ -553,7 +557,7 @@ impl Segment {
                 return Segment::chain(members.iter().rev().map(Segment::reversed));
             }
         };
-        Segment { start, end, shape, length, heading }
+        Segment { start, end, shape, scale: self.scale, heading }
     }
 
     /// Scales and turns it onto another chord, which must not be zero: what undoing a scale by a power of two
@@ -592,8 +596,7 @@ impl Segment {
                 *self = Segment::line(start, end);
                 return;
             }
-            Shape::Spiral(_) | Shape::Elastica(_) => {}
-            Shape::Unit(piece) => piece.scale *= scale,
+            Shape::Spiral(_) | Shape::Elastica(_) | Shape::Unit(_) => {}
             Shape::Chain(members) => {
                 let last = members.len() - 1;
                 let mut next = start;
@@ -608,7 +611,7 @@ impl Segment {
             }
         }
         (self.start, self.end) = (start, end);
-        self.length *= scale;
+        self.scale *= scale;
         self.heading += turn;
     }
 
@@ -629,8 +632,8 @@ impl Segment {
                 let mut places = places_in(members, Segment::inflections);
                 let mut before = 0.0;
                 for pair in members.windows(2) {
-                    before += pair[0].length;
-                    if pair[0].curvature(pair[0].length) * pair[1].curvature(0.0) < 0.0 {
+                    before += pair[0].length();
+                    if pair[0].curvature(pair[0].length()) * pair[1].curvature(0.0) < 0.0 {
                         places.push(before);
                     }
                 }
@@ -667,15 +670,15 @@ impl Segment {
                 // At a joint, rounding may put it beyond either side, or have it twice.
                 let mut before = 0.0;
                 for member in &members[..members.len() - 1] {
-                    before += member.length;
-                    let direction = member.direction(member.length);
+                    before += member.length();
+                    let direction = member.direction(member.length());
                     let rounding = 8.0 * f64::EPSILON * (1.0 + direction.abs());
                     if unit_vector(2.0 * direction).im.abs() <= rounding {
                         places.push(before);
                     }
                 }
                 sort_by(&mut places, f64::total_cmp);
-                places.dedup_by(|after, before| *after - *before <= 1e-12 * self.length);
+                places.dedup_by(|after, before| *after - *before <= 1e-12 * self.length());
                 places
             }
         }
@@ -726,7 +729,7 @@ impl Segment {
                         places.push(before);
                     }
                     places.extend(member.breaks().into_iter().map(|s| before + s));
-                    before += member.length;
+                    before += member.length();
                 }
                 places
             }
@@ -752,16 +755,16 @@ impl Segment {
     /// distance by at most `accuracy` (in user units; values below 1e-12 of the arc length count as
     /// that).
     pub fn nearest(&self, target: Point, accuracy: f64) -> (f64, f64) {
-        let accuracy = accuracy.max(1e-12 * self.length).max(f64::MIN_POSITIVE);
+        let accuracy = accuracy.max(1e-12 * self.length()).max(f64::MIN_POSITIVE);
         let distance = |s: f64| (self.point(s) - target).hypot();
-        let mut best = [0.0, self.length, self.length / 2.0]
+        let mut best = [0.0, self.length(), self.length() / 2.0]
             .map(|s| (s, distance(s)))
             .into_iter()
             .min_by(|a, b| a.1.total_cmp(&b.1))
             .unwrap_or((0.0, 0.0));
         // Branch and bound: an arc of length h over a chord of length d lies within the ellipse
         // around the chord's ends, ½√(h² − d²) to the side, and, where |κ| ≤ K, within K·h²/8.
-        let mut stack = vec![(0.0, self.length, self.start, self.end)];
+        let mut stack = vec![(0.0, self.length(), self.start, self.end)];
         while let Some((from, to, start, end)) = stack.pop() {
             let h = to - from;
             let d = (end - start).hypot().min(h);
@@ -790,15 +793,15 @@ impl Segment {
         match &self.shape {
             Shape::Line => 0.0,
             Shape::Spiral(PolynomialSpiral { k }) => {
-                mean_square(&[k[0], k[1], k[2] / 2.0, k[3] / 6.0]) / self.length
+                mean_square(&[k[0], k[1], k[2] / 2.0, k[3] / 6.0]) / self.scale
             }
             Shape::Elastica(elastica) => {
                 let square = |s: f64| elastica.curvature_jet(s)[0].powi(2);
-                integrate(&square, &[-0.5, 0.5]) / self.length
+                integrate(&square, &[-0.5, 0.5]) / self.scale
             }
             Shape::Unit(piece) => {
-                let unit = piece.curve.integral(piece.from, piece.to, &|jet| jet[0] * jet[0]);
-                (unit / piece.scale).min(f64::MAX)
+                let unit = piece.curve.integral(piece.from(), piece.to(), &|jet| jet[0] * jet[0]);
+                (unit / self.scale).min(f64::MAX)
             }
             Shape::Chain(members) => members.iter().map(Segment::bending_energy).sum(),
         }
@@ -810,15 +813,15 @@ impl Segment {
         match &self.shape {
             Shape::Line => 0.0,
             Shape::Spiral(PolynomialSpiral { k }) => {
-                mean_square(&[k[1], k[2], k[3] / 2.0]) / self.length.powi(3)
+                mean_square(&[k[1], k[2], k[3] / 2.0]) / self.scale.powi(3)
             }
             Shape::Elastica(elastica) => {
                 let square = |s: f64| elastica.curvature_jet(s)[1].powi(2);
-                integrate(&square, &[-0.5, 0.5]) / self.length.powi(3)
+                integrate(&square, &[-0.5, 0.5]) / self.scale.powi(3)
             }
             Shape::Unit(piece) => {
-                let unit = piece.curve.integral(piece.from, piece.to, &|jet| jet[1] * jet[1]);
-                (unit / piece.scale.powi(3)).min(f64::MAX)
+                let unit = piece.curve.integral(piece.from(), piece.to(), &|jet| jet[1] * jet[1]);
+                (unit / self.scale.powi(3)).min(f64::MAX)
             }
             Shape::Chain(members) => members.iter().map(Segment::variation_energy).sum(),
         }
@@ -832,22 +835,21 @@ impl Segment {
     /// Upper bounds of |κ|, |κ′| and |κ″| between two arc lengths, by arc length and in units of the
     /// drawing; each is [`f64::MAX`] where none is known.
     pub fn curvature_bounds(&self, from: f64, to: f64) -> [f64; 3] {
-        if self.length == 0.0 {
+        if self.length() == 0.0 {
             return [0.0; 3];
         }
-        let (bounds, unit) = match &self.shape {
+        let bounds = match &self.shape {
             Shape::Line => return [0.0; 3],
             Shape::Spiral(spiral) => {
                 let (a, b) = (self.local(from), self.local(to));
                 let [k, first, second, third] =
                     curvature_jet(spiral.k, (a + b) / 2.0).map(f64::abs);
                 let half = (b - a) / 2.0;
-                let bounds = [
+                [
                     k + half * (first + half * (second / 2.0 + half * third / 6.0)),
                     first + half * (second + half * third / 2.0),
                     second + half * third,
-                ];
-                (bounds, self.length)
+                ]
             }
             Shape::Elastica(elastica) => {
                 // κ′ = −b sin θ, κ″ = −b κ cos θ.
@@ -856,19 +858,19 @@ impl Segment {
                 let ends = elastica.at(a).curvature.abs().max(elastica.at(b).curvature.abs());
                 let between = ends + force * (b - a).abs() / 2.0;
                 let k = between.min(elastica.largest_curvature()).max(ends);
-                ([k, force, force * k], self.length)
+                [k, force, force * k]
             }
             Shape::Unit(piece) => {
                 let (a, b) = (self.place_on(piece, from), self.place_on(piece, to));
-                (piece.curve.curvature_bounds(a.min(b), a.max(b)), piece.scale)
+                piece.curve.curvature_bounds(a.min(b), a.max(b))
             }
             Shape::Chain(members) => {
                 let mut before = 0.0;
                 let mut largest = [0.0f64; 3];
                 for member in members.iter() {
-                    let after = before + member.length;
+                    let after = before + member.length();
                     if after >= from && before <= to {
-                        let (a, b) = ((from - before).max(0.0), (to - before).min(member.length));
+                        let (a, b) = ((from - before).max(0.0), (to - before).min(member.length()));
                         let bounds = member.curvature_bounds(a, b);
                         largest = std::array::from_fn(|j| largest[j].max(bounds[j]));
                     }
@@ -879,29 +881,29 @@ impl Segment {
         };
         let mut scale = 1.0;
         bounds.map(|bound| {
-            scale /= unit;
+            scale /= self.scale;
             if bound == f64::MAX { bound } else { (bound * scale).min(f64::MAX) }
         })
     }
 
-    /// s ∈ [−½, ½] for an arc length.
+    /// s ∈ [−½, ½] for an arc length of a spiral or an elastica.
     fn local(&self, s: f64) -> f64 {
-        if self.length == 0.0 { 0.0 } else { s / self.length - 0.5 }
+        if self.scale == 0.0 { 0.0 } else { s / self.scale - 0.5 }
     }
 
     fn places_from_local(&self, local: &[f64]) -> Vec<f64> {
-        local.iter().map(|s| ((s + 0.5) * self.length).clamp(0.0, self.length)).collect()
+        local.iter().map(|s| ((s + 0.5) * self.length()).clamp(0.0, self.length())).collect()
     }
 
     /// The unit curve's arc length at arc length `s`: at the ends its own to the bit, since next to a cusp
     /// the last bit turns the curve.
     fn place_on(&self, piece: &UnitPiece, s: f64) -> f64 {
-        if s > 0.0 && s < self.length {
-            piece.place(s / piece.scale)
-        } else if (s >= self.length) == piece.backwards {
-            piece.from
+        if s > 0.0 && s < self.length() {
+            piece.place(s / self.scale)
+        } else if (s >= self.length()) == piece.backwards {
+            piece.from()
         } else {
-            piece.to
+            piece.to()
         }
     }
 
@@ -916,23 +918,23 @@ impl Segment {
     fn member<'a>(&self, members: &'a [Segment], s: f64) -> (&'a Segment, f64) {
         let mut rest = s;
         for member in &members[..members.len() - 1] {
-            if rest < member.length {
+            if rest < member.length() {
                 return (member, rest);
             }
-            rest -= member.length;
+            rest -= member.length();
         }
         let last = &members[members.len() - 1];
-        (last, if s < self.length { rest } else { last.length })
+        (last, if s < self.length() { rest } else { last.length() })
     }
 
     /// Both ends and the breaks between them, as arc lengths of the segment, ascending.
     fn stops(&self) -> Vec<f64> {
-        let Shape::Unit(piece) = &self.shape else { return vec![0.0, self.length] };
+        let Shape::Unit(piece) = &self.shape else { return vec![0.0, self.length()] };
         let mut stops: Vec<f64> = piece
             .curve
-            .stops(piece.from, piece.to)
+            .stops(piece.from(), piece.to())
             .into_iter()
-            .map(|s| if piece.backwards { piece.to - s } else { s - piece.from } * piece.scale)
+            .map(|s| if piece.backwards { piece.to() - s } else { s - piece.from() } * self.scale)
             .collect();
         sort_by(&mut stops, f64::total_cmp);
         stops
@@ -978,7 +980,7 @@ fn places_in(members: &[Segment], find: impl Fn(&Segment) -> Vec<f64>) -> Vec<f6
     let mut places = Vec::new();
     for member in members {
         places.extend(find(member).into_iter().map(|s| before + s));
-        before += member.length;
+        before += member.length();
     }
     places
 }

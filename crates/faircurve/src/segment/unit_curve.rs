@@ -25,6 +25,11 @@ pub trait UnitCurve: fmt::Debug + Send + Sync {
     /// Arc length, at least 1.
     fn length(&self) -> f64;
 
+    /// The length, or where it isn't known yet something larger.
+    fn length_bound(&self) -> f64 {
+        self.length()
+    }
+
     /// The point at arc length `s`: exactly 0 and 1 at the ends.
     fn point(&self, s: f64) -> Complex64;
 
@@ -55,7 +60,7 @@ pub trait UnitCurve: fmt::Debug + Send + Sync {
     /// known.
     fn curvature_bounds(&self, from: f64, to: f64) -> [f64; 3];
 
-    /// The piece between two arc lengths as a Bézier, if it is one exactly.
+    /// The piece between two arc lengths, which may lie beyond the curve, as a Bézier, if it is one exactly.
     fn bezier(&self, from: f64, to: f64) -> Option<PathSeg>;
 
     /// The integral of `f` (of the curvature jet) by arc length, to about 1e-13 of itself; the most
