@@ -30,14 +30,14 @@ export interface Location {
   length: number;
 }
 
-/** Does it, and turns errors of the module into those of the package. */
-export function checked<T>(does: () => T): T {
+/** Does it, and turns errors of the module into those of the package; `place` starts their messages. */
+export function checked<T>(does: () => T, place?: () => string): T {
   try {
     return does();
   } catch (error) {
     if (error instanceof Error && "hint" in error && !(error instanceof FaircurveError)) {
       const { message, hint, location } = error as Error & { hint: string; location?: Location };
-      throw new FaircurveError(message, hint, location);
+      throw new FaircurveError(place ? `${place()}: ${message}` : message, hint, location);
     }
     throw error;
   }

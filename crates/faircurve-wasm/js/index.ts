@@ -80,29 +80,37 @@ export function solve(document: Document, options: SolveOptions = {}): Solution 
   if (all === undefined) {
     throw new FaircurveError("the document has neither `glyphs` nor `contours`", 'add `"contours": […]`');
   }
-  const solved = all.map((glyph, index) => solveGlyph(glyph, glyphs ? glyphPlace(glyph, index) : "", document, options));
-  return { glyphs: solved, contours: solved.flatMap((glyph) => glyph.contours) };
+  const solved: SolvedGlyph[] = [];
+  const curves: Curve[] = [];
+  for (let index = 0; index < all.length; index++) {
+    const glyph = solveGlyph(all[index]!, () => (glyphs ? glyphPlace(all[index]!, index) : ""), document, options);
+    solved.push(glyph);
+    curves.push(...glyph.contours);
+  }
+  return { glyphs: solved, contours: curves };
 }
 
-function glyphPlace(glyph: Glyph, index: number): string {
-  return glyph.name ? `glyph \`${glyph.name}\`, ` : `glyph ${index}, `;
+function glyphPlace({ name, layer }: Glyph, index: number): string {
+  return `${name ? `glyph \`${name}\`` : `glyph ${index}`}, ${layer ? `layer \`${layer}\`, ` : ""}`;
 }
 
-function solveGlyph(glyph: Glyph, place: string, document: Document, options: SolveOptions): SolvedGlyph {
-  const contours = glyph.contours.map((contour, index) =>
-    solveContour(contour, `${place}contour ${index}, `, document, options),
-  );
+/** `place`, where the words that say it are wanted. */
+function solveGlyph(glyph: Glyph, place: () => string, document: Document, options: SolveOptions): SolvedGlyph {
+  const contours: Curve[] = [];
+  for (let index = 0; index < glyph.contours.length; index++) {
+    const at = () => `${place()}contour ${index}`;
+    contours.push(solveContour(glyph.contours[index]!, at, document, options));
+  }
   return { name: glyph.name ?? "", layer: glyph.layer ?? "", contours };
 }
 
-function solveContour(contour: Contour, place: string, document: Document, options: SolveOptions): Curve {
-  if (!Array.isArray(contour?.knots)) throw wrongType(`${place}\`knots\``, "a list", contour?.knots);
-  return checked(() => {
-    const { name, built, solver } = splineOf(contour, document);
-    const closed = contour.closed ?? false;
-    const { effort = 1, noLoops = false } = options;
-    return new Curve(solver.solve(built, knotRows(contour.knots, place), closed, effort, noLoops), name, closed);
-  });
+function solveContour(contour: Contour, place: () => string, document: Document, options: SolveOptions): Curve {
+  if (!Array.isArray(contour?.knots)) throw wrongType(`${place()}, \`knots\``, "a list", contour?.knots);
+  const { name, built, solver } = checked(() => splineOf(contour, document));
+  const rows = knotRows(contour.knots, place);
+  const { closed = false } = contour;
+  const { effort = 1, noLoops = false } = options;
+  return new Curve(checked(() => solver.solve(built, rows, closed, effort, noLoops), place), name, closed);
 }
 
 /** The names of the joins. */

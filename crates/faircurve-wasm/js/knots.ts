@@ -18,18 +18,20 @@ export function joinName(code: number): string {
 }
 
 let room = new Float64Array(ROW * 64);
+let rows = room;
 
-/** The rows of all knots, until the next call. `place` starts messages: `contour 2, `. */
-export function knotRows(knots: readonly Knot[], place = ""): Float64Array {
+/** The rows of all knots, until the next call. `place` starts messages: `contour 2`. */
+export function knotRows(knots: readonly Knot[], place?: () => string): Float64Array {
   const size = ROW * knots.length;
   if (size > room.length) room = new Float64Array(2 * size);
-  const rows = room.subarray(0, size).fill(NaN);
+  if (size !== rows.length) rows = room.subarray(0, size);
+  rows.fill(NaN);
   for (let index = 0; index < knots.length; index++) {
     try {
       writeRow(rows, ROW * index, knots[index]!);
     } catch (error) {
       if (!(error instanceof FaircurveError)) throw error;
-      throw new FaircurveError(`${place}knot ${index}: ${error.message}`, error.hint);
+      throw new FaircurveError(`${place ? `${place()}, ` : ""}knot ${index}: ${error.message}`, error.hint);
     }
   }
   return rows;

@@ -64,12 +64,14 @@ test("errors have the program's words and hints", () => {
   const knots = circle(4);
   wrong(() => one({ knots }, { spline: "spirro" }), "there is no spline `spirro`", "did you mean `spiro`?");
   wrong(() => one({ knots }, { spline: "hobby", params: { tension: 0.1 } }), "parameter `tension` of spline `hobby` can't be `0.1`");
-  wrong(() => one({ knots: [] }), "the contour has no knots", "give it at least one knot, or leave the contour out");
-  wrong(() => one({ knots: [{ x: NaN, y: 0 }, ...knots] }), "x of knot 0 is not a finite number", "replace NaN and infinities by ordinary numbers");
-  wrong(() => one({ knots: [{ x: 0, y: 0, curvature_out: NaN }, ...knots] }), "curvature_out of knot 0 is not a finite number");
+  wrong(() => one({ knots: [] }), "contour 0: the contour has no knots", "give it at least one knot, or leave the contour out");
+  wrong(() => one({ knots: [{ x: NaN, y: 0 }, ...knots] }), "contour 0: x of knot 0 is not a finite number", "replace NaN and infinities by ordinary numbers");
+  wrong(() => one({ knots: [{ x: 0, y: 0, curvature_out: NaN }, ...knots] }), "contour 0: curvature_out of knot 0 is not a finite number");
   wrong(() => one({ knots: [{ x: 0, y: 0, join: "g3" }] }), "contour 0, knot 0: there is no join `g3`");
   wrong(() => one({ knots: [{ x: 0, y: 0, jion: "g2" }] }), "contour 0, knot 0: there is no key `jion` here", "did you mean `join`?");
   wrong(() => one({ knots: [{ x: "0", y: 0 }] }), "contour 0, knot 0: `x` must be a number, not a string");
+  const glyphs = [{ contours: [{ knots }] }, { name: "a", layer: "Fore", contours: [{ knots }, { knots: [{ x: 1e99, y: 0 }] }] }];
+  wrong(() => solve({ glyphs }), "glyph `a`, layer `Fore`, contour 1: knot 0 lies beyond 1e55 units");
   wrong(() => solve({}), "the document has neither `glyphs` nor `contours`");
   wrong(() => one({ knots }).convert({ fit: "best" }), "there is no fit `best`");
 });
@@ -108,7 +110,7 @@ test("a live contour follows edits, refuses nonsense, undoes", () => {
   const same = solve({ contours: [live.contour] }).contours[0];
   assert.ok(Math.abs(same.length - live.curve.length) < 1e-6);
   live.move(0, NaN, 0);
-  assert.throws(() => live.curve, { name: "FaircurveError", message: "x of knot 0 is not a finite number" });
+  assert.throws(() => live.curve, { name: "FaircurveError", message: "contour 0: x of knot 0 is not a finite number" });
   assert.throws(() => live.move(99, 0, 0), { message: "there is no knot 99" });
   live.move(0, 100, 0);
   live.setSpline({ spline: "euler" });

@@ -607,34 +607,44 @@ fn check(contour: &Contour) -> Result<(), InputError> {
     if contour.knots.is_empty() {
         return Err(InputError::Empty);
     }
-    const NUMBERS: [&str; 7] =
-        ["x", "y", "curvature_in", "curvature_out", "tension_in", "tension_out", "curl"];
+    let fits = |coordinate: f64| coordinate.abs() <= LARGEST_COORDINATE;
     for (index, knot) in contour.knots.iter().enumerate() {
-        let numbers = [
-            Some(knot.point.x),
-            Some(knot.point.y),
-            knot.curvature_in,
-            knot.curvature_out,
-            knot.tension_in,
-            knot.tension_out,
-            knot.curl,
-        ];
-        let is_bad = |number: &Option<f64>| number.is_some_and(|number| !number.is_finite());
-        if let Some(which) = numbers.iter().position(is_bad) {
-            return Err(InputError::NotFinite { knot: index, what: NUMBERS[which] });
+        let given =
+            [knot.curvature_in, knot.curvature_out, knot.tension_in, knot.tension_out, knot.curl];
+        let numbers_hold = given.iter().all(|number| number.is_none_or(f64::is_finite));
+        let has_tangent = knot.tangent_in.is_some() || knot.tangent_out.is_some();
+        if !(fits(knot.point.x) && fits(knot.point.y) && numbers_hold) || has_tangent {
+            check_knot(knot, index)?;
         }
-        if knot.point.x.abs().max(knot.point.y.abs()) > LARGEST_COORDINATE {
-            return Err(InputError::TooLarge { knot: index });
-        }
-        for (what, tangent) in [("tangent_in", knot.tangent_in), ("tangent_out", knot.tangent_out)]
-        {
-            match tangent {
-                Some(tangent) if !tangent.is_finite() => {
-                    return Err(InputError::NotFinite { knot: index, what });
-                }
-                Some(Vec2::ZERO) => return Err(InputError::ZeroTangent { knot: index, what }),
-                _ => {}
+    }
+    Ok(())
+}
+
+/// Refuses a knot with something that has no meaning.
+fn check_knot(knot: &Knot, index: usize) -> Result<(), InputError> {
+    let numbers = [
+        ("x", Some(knot.point.x)),
+        ("y", Some(knot.point.y)),
+        ("curvature_in", knot.curvature_in),
+        ("curvature_out", knot.curvature_out),
+        ("tension_in", knot.tension_in),
+        ("tension_out", knot.tension_out),
+        ("curl", knot.curl),
+    ];
+    let is_bad = |(_, number): &&(_, Option<f64>)| number.is_some_and(|x| !x.is_finite());
+    if let Some((what, _)) = numbers.iter().find(is_bad) {
+        return Err(InputError::NotFinite { knot: index, what });
+    }
+    if knot.point.x.abs().max(knot.point.y.abs()) > LARGEST_COORDINATE {
+        return Err(InputError::TooLarge { knot: index });
+    }
+    for (what, tangent) in [("tangent_in", knot.tangent_in), ("tangent_out", knot.tangent_out)] {
+        match tangent {
+            Some(tangent) if !tangent.is_finite() => {
+                return Err(InputError::NotFinite { knot: index, what });
             }
+            Some(Vec2::ZERO) => return Err(InputError::ZeroTangent { knot: index, what }),
+            _ => {}
         }
     }
     Ok(())
@@ -644,13 +654,14 @@ fn check(contour: &Contour) -> Result<(), InputError> {
 fn resolve_joins(contour: &Contour, spline: &dyn Spline) -> (Vec<ResolvedJoin>, Vec<Adaptation>) {
     let mut adapted = Vec::new();
     let (last, own) = (contour.knots.len() - 1, spline.default_join());
+    let adapts = Join::ALL.map(|join| spline.adapt(join));
     let joins = contour
         .knots
         .iter()
         .enumerate()
         .map(|(index, knot)| {
             let asked = knot.join.unwrap_or(own);
-            let got = spline.adapt(asked);
+            let got = adapts[asked as usize];
             let is_end = !contour.closed && (index == 0 || index == last);
             if got != asked && !is_end {
                 let (asked, got) = (asked.name(), got.name());
@@ -873,16 +884,24 @@ fn is_straight(run: &Run) -> bool {
 /// it is reversed.
 fn canonical(run: Run, first_node: usize, nodes: usize) -> (Run, usize, bool) {
     let n = run.knots.len();
-    let [forward, backward] = marks(&run);
+    let marks = marks(&run);
     // Knot i of the way back is knot n − 1 − i.
-    let forward_place = |i: usize| <(f64, f64)>::from(run.knots[around(i, n)].point);
-    let backward_place = |i: usize| forward_place(n - 1 - around(i, n));
-    let a = if run.closed { least_start(&forward, forward_place) } else { 0 };
-    let b = if run.closed { least_start(&backward, backward_place) } else { 0 };
-    let order = from(&forward, a).cmp(from(&backward, b)).then_with(|| {
-        let ways = (0..n).map(|i| forward_place(a + i).partial_cmp(&backward_place(b + i)));
-        ways.flatten().find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
-    });
+    let ahead = |i: usize| around(i, n);
+    let back = |i: usize| n - 1 - around(i, n);
+    let place = |knot: usize| <(f64, f64)>::from(run.knots[knot].point);
+    let seen_ahead = |i: usize| marks[ahead(i)].seen(0);
+    let seen_back = |i: usize| marks[back(i)].seen(1);
+    let (a, b) = match run.closed {
+        true => (
+            least_start(n, seen_ahead, |i| place(ahead(i))),
+            least_start(n, seen_back, |i| place(back(i))),
+        ),
+        false => (0, 0),
+    };
+    let marked = (0..n).map(|i| seen_ahead(a + i).cmp(&seen_back(b + i)));
+    let placed = (0..n)
+        .map(|i| place(ahead(a + i)).partial_cmp(&place(back(b + i))).unwrap_or(Ordering::Equal));
+    let order = marked.chain(placed).find(|order| order.is_ne()).unwrap_or(Ordering::Equal);
     let keep = order.is_le();
     let knots = match keep {
         true => from(&run.knots, a).copied().collect(),
@@ -893,39 +912,54 @@ fn canonical(run: Run, first_node: usize, nodes: usize) -> (Run, usize, bool) {
     (Run { knots, closed: run.closed, unit: run.unit }, around(first_node + first, nodes), !keep)
 }
 
-/// Where the least rotation of a closed run's marks starts. A symmetric run has several such starts; any will do, so
-/// long as it is the same one: that of the least place.
-fn least_start(marks: &[Mark], place: impl Fn(usize) -> (f64, f64)) -> usize {
-    let n = marks.len();
-    let (mut least, mut is_alone) = (0, true);
+/// Where the least rotation of a closed run of `n` knots starts, as they are seen. A symmetric run has several such
+/// starts; any will do, so long as it is the same one: that of the least place.
+fn least_start(
+    n: usize,
+    seen: impl Fn(usize) -> Seen,
+    place: impl Fn(usize) -> (f64, f64),
+) -> usize {
+    let (mut start, mut least, mut is_alone) = (0, seen(0), true);
     for i in 1..n {
-        match marks[i].cmp(&marks[least]) {
-            Ordering::Less => (least, is_alone) = (i, true),
+        let here = seen(i);
+        match here.cmp(&least) {
+            Ordering::Less => (start, least, is_alone) = (i, here, true),
             Ordering::Equal => is_alone = false,
             Ordering::Greater => {}
         }
     }
     if is_alone {
-        return least;
+        return start;
     }
-    let (start, period) = least_rotation(marks);
+    let all: Vec<Seen> = (0..n).map(seen).collect();
+    let (start, period) = least_rotation(&all);
     (0..n / period)
         .map(|i| around(start + i * period, n))
         .fold(start, |best, i| if place(i) < place(best) { i } else { best })
 }
 
-/// What a knot looks like to someone who travels the run; the numbers rounded and without sign, so that neither
-/// rounding errors nor mirrors tell knots apart that are alike.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+/// What a knot looks like; the numbers rounded and without sign, so that neither rounding errors nor mirrors tell
+/// knots apart that are alike.
+#[derive(Clone, Copy)]
 struct Mark {
-    join: Join,
+    /// For someone who travels the run, and for someone who travels it the other way.
+    join: [Join; 2],
     turn: i64,
-    /// The chord that follows, over the longest one; 0 after the last of an open run.
-    chord: i64,
+    /// The chord that follows, either way, over the longest one; 0 after the last of an open run.
+    chord: [i64; 2],
     /// The tangent from that chord; less than any if none is given.
-    tangent: i64,
+    tangent: [i64; 2],
     /// The curvature by the longest chord; less than any if none is given.
     curvature: i64,
+}
+
+/// The parts of a [`Mark`] that one who travels this way sees, in order of weight.
+type Seen = (Join, i64, i64, i64, i64);
+
+impl Mark {
+    fn seen(&self, way: usize) -> Seen {
+        (self.join[way], self.turn, self.chord[way], self.tangent[way], self.curvature)
+    }
 }
 
 /// Alike to a billionth of a radian or of the run's size.
@@ -933,35 +967,36 @@ fn coarse(number: f64) -> i64 {
     (number.abs() * 1e9 + 0.5) as i64
 }
 
-/// The marks of a run's knots, forwards and backwards.
-fn marks(run: &Run) -> [Vec<Mark>; 2] {
+/// The marks of a run's knots.
+fn marks(run: &Run) -> Vec<Mark> {
     const NONE: i64 = -1;
-    let n = run.knots.len();
     let last = run.segment_count() - 1;
     let lengths: Vec<f64> = (0..=last).map(|i| run.chord(i).hypot()).collect();
     let size = lengths.iter().copied().fold(0.0, f64::max);
-    let chord = |i: usize| lengths.get(i).map_or(0, |length| coarse(length / size));
     let off = |tangent: f64, chord: Vec2| coarse(wrap_angle(tangent - direction(chord)));
-    let forward: Vec<Mark> = (run.knots.iter().enumerate())
-        .map(|(i, knot)| Mark {
-            join: knot.join,
-            turn: coarse(knot.turn),
-            chord: chord(i),
-            tangent: knot.tangent.map_or(NONE, |tangent| off(tangent, run.chord(i.min(last)))),
-            curvature: knot.curvature.map_or(NONE, |curvature| coarse(curvature * size)),
-        })
-        .collect();
-    let backward = (0..n).rev().map(|i| {
-        // The chord that leads to a knot follows it on the way back.
-        let to = if i > 0 { i - 1 } else { n - 1 };
-        let tangent = run.knots[i].tangent.map_or(NONE, |tangent| {
-            off(wrap_angle(tangent + PI), -run.chord(if to > last { 0 } else { to }))
+    let mut before = if run.closed { coarse(lengths[last] / size) } else { 0 };
+    let mark = |(i, knot): (usize, &RunKnot)| {
+        let after = lengths.get(i).map_or(0, |length| coarse(length / size));
+        let chord = [after, before];
+        before = after;
+        let tangent = knot.tangent.map_or([NONE; 2], |tangent| {
+            let behind = match i {
+                0 if run.closed => last,
+                0 => 0,
+                _ => i - 1,
+            };
+            let back = wrap_angle(tangent + PI);
+            [off(tangent, run.chord(i.min(last))), off(back, -run.chord(behind))]
         });
-        let chord = forward[to].chord;
-        Mark { join: forward[i].join.reversed(), chord, tangent, ..forward[i] }
-    });
-    let backward = backward.collect();
-    [forward, backward]
+        Mark {
+            join: [knot.join, knot.join.reversed()],
+            turn: coarse(knot.turn),
+            chord,
+            tangent,
+            curvature: knot.curvature.map_or(NONE, |curvature| coarse(curvature * size)),
+        }
+    };
+    run.knots.iter().enumerate().map(mark).collect()
 }
 
 /// The place `index` of a list of `count`, counted around its end at most once.

@@ -44,36 +44,39 @@ pub enum Shape {
 #[derive(Clone, Debug)]
 pub struct UnitPiece {
     curve: Arc<dyn UnitCurve>,
-    /// The arc lengths of the curve at which it starts and ends, where it isn't the whole.
-    part: Option<[f64; 2]>,
+    /// The arc lengths of the curve at which it starts and ends; infinite where it ends with the curve, which need
+    /// not be measured yet.
+    from: f64,
+    to: f64,
     backwards: bool,
 }
 
 impl PartialEq for UnitPiece {
     /// Whether they are the same piece of the same curve, not of an equal one.
     fn eq(&self, other: &Self) -> bool {
-        let range = |piece: &UnitPiece| (piece.from(), piece.to(), piece.backwards);
+        let range = |piece: &UnitPiece| (piece.from, piece.to(), piece.backwards);
         Arc::ptr_eq(&self.curve, &other.curve) && range(self) == range(other)
     }
 }
 
 impl UnitPiece {
-    fn from(&self) -> f64 {
-        self.part.map_or(0.0, |[from, _]| from)
+    fn is_whole(&self) -> bool {
+        self.from == 0.0 && self.to == f64::INFINITY
     }
 
+    #[inline(never)] // for the size of the web's module
     fn to(&self) -> f64 {
-        self.part.map_or_else(|| self.curve.length(), |[_, to]| to)
+        if self.to == f64::INFINITY { self.curve.length() } else { self.to }
     }
 
     fn length(&self) -> f64 {
-        self.to() - self.from()
+        self.to() - self.from
     }
 
     /// The curve's arc length for one of the piece's.
     fn place(&self, s: f64) -> f64 {
-        let s = if self.backwards { self.to() - s } else { self.from() + s };
-        s.clamp(self.from(), self.to())
+        let s = if self.backwards { self.to() - s } else { self.from + s };
+        s.clamp(self.from, self.to())
     }
 }
 
@@ -172,7 +175,8 @@ impl Segment {
         if chord == Vec2::ZERO || !(scale * curve.length_bound()).is_finite() {
             return Segment::line(start, end);
         }
-        let shape = Shape::Unit(UnitPiece { curve, part: None, backwards: false });
+        let shape =
+            Shape::Unit(UnitPiece { curve, from: 0.0, to: f64::INFINITY, backwards: false });
         Segment { start, end, shape, scale, heading: direction(chord) }
     }
 
@@ -284,8 +288,7 @@ impl Segment {
             Shape::Line => Some(vec![PathSeg::Line(kurbo::Line::new(self.start, self.end))]),
             Shape::Spiral(_) | Shape::Elastica(_) => None,
             Shape::Unit(piece) => {
-                let [from, to] = piece.part.unwrap_or([0.0, f64::INFINITY]);
-                let unit = piece.curve.bezier(from, to)?;
+                let unit = piece.curve.bezier(piece.from, piece.to)?;
                 let unit = if piece.backwards { unit.reverse() } else { unit };
                 let Complex64 { re, im } = unit_vector(self.heading);
                 let turned = Affine::new([re, im, -im, re, 0.0, 0.0]);
@@ -308,6 +311,7 @@ impl Segment {
     }
 
     /// Arc length.
+    #[inline(never)] // for the size of the web's module
     pub fn length(&self) -> f64 {
         match &self.shape {
             Shape::Unit(piece) => self.scale * piece.length(),
@@ -344,7 +348,7 @@ impl Segment {
     pub fn ends(&self) -> [CurveEnd; 2] {
         match &self.shape {
             Shape::Line => [CurveEnd { direction: self.heading, curvature: 0.0 }; 2],
-            Shape::Unit(piece) if piece.part.is_none() => {
+            Shape::Unit(piece) if piece.is_whole() => {
                 let [start, end] = piece.curve.ends();
                 let per_unit = 1.0 / self.scale;
                 let place = |end: CurveEnd, turned: f64, sign: f64| CurveEnd {
@@ -514,8 +518,8 @@ impl Segment {
             }
             Shape::Unit(piece) => {
                 let (a, b) = (self.place_on(piece, from), self.place_on(piece, to));
-                let part = Some([a.min(b), a.max(b)]);
-                let shape = Shape::Unit(UnitPiece { part, ..piece.clone() });
+                let (from, to) = (a.min(b), a.max(b));
+                let shape = Shape::Unit(UnitPiece { from, to, ..piece.clone() });
                 Segment { start, end, shape, ..*self }
             }
             Shape::Chain(members) => {
@@ -800,7 +804,7 @@ impl Segment {
                 integrate(&square, &[-0.5, 0.5]) / self.scale
             }
             Shape::Unit(piece) => {
-                let unit = piece.curve.integral(piece.from(), piece.to(), &|jet| jet[0] * jet[0]);
+                let unit = piece.curve.integral(piece.from, piece.to(), &|jet| jet[0] * jet[0]);
                 (unit / self.scale).min(f64::MAX)
             }
             Shape::Chain(members) => members.iter().map(Segment::bending_energy).sum(),
@@ -820,7 +824,7 @@ impl Segment {
                 integrate(&square, &[-0.5, 0.5]) / self.scale.powi(3)
             }
             Shape::Unit(piece) => {
-                let unit = piece.curve.integral(piece.from(), piece.to(), &|jet| jet[1] * jet[1]);
+                let unit = piece.curve.integral(piece.from, piece.to(), &|jet| jet[1] * jet[1]);
                 (unit / self.scale.powi(3)).min(f64::MAX)
             }
             Shape::Chain(members) => members.iter().map(Segment::variation_energy).sum(),
@@ -901,7 +905,7 @@ impl Segment {
         if s > 0.0 && s < self.length() {
             piece.place(s / self.scale)
         } else if (s >= self.length()) == piece.backwards {
-            piece.from()
+            piece.from
         } else {
             piece.to()
         }
@@ -932,9 +936,9 @@ impl Segment {
         let Shape::Unit(piece) = &self.shape else { return vec![0.0, self.length()] };
         let mut stops: Vec<f64> = piece
             .curve
-            .stops(piece.from(), piece.to())
+            .stops(piece.from, piece.to())
             .into_iter()
-            .map(|s| if piece.backwards { piece.to() - s } else { s - piece.from() } * self.scale)
+            .map(|s| if piece.backwards { piece.to() - s } else { s - piece.from } * self.scale)
             .collect();
         sort_by(&mut stops, f64::total_cmp);
         stops
