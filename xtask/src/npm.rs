@@ -15,12 +15,35 @@ use crate::{at, copies, root};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
-/// The modules: name, which is that of the crate's feature, too, the levels of optimisation of the compiler
-/// and of wasm-opt, and bytes up to which copies are spelled out. The solvers are hot: copies spelled out make
-/// them 3 to 10 % quicker and 2 % larger, the compiler's level 3 some more quicker and 5 % larger, for which the
+/// How a module is built.
+struct Module {
+    /// That of the crate's feature, too.
+    name: &'static str,
+    /// The compiler's level of optimisation.
+    level: &'static str,
+    /// Up to which cost the compiler puts a function into its callers, where that isn't for the level to say: at 2
+    /// and 3 it is 225.
+    most_inlined: Option<usize>,
+    /// wasm-opt's level.
+    wasm_level: &'static str,
+    /// Bytes up to which copies are spelled out.
+    most_copied: usize,
+}
+
+/// The modules. The solvers are hot: copies spelled out make them 3 to 10 % quicker and 2 % larger, the compiler's
+/// level 3 some more quicker and 5 % larger, all that it would inline 2 % quicker and 4 % larger; for the last two the
 /// first module has no room.
-const MODULES: [(&str, &str, &str, usize); 3] =
-    [("solver", "2", "-O3", 112), ("splines", "3", "-O3", 128), ("formats", "z", "-Oz", 0)];
+const MODULES: [Module; 3] = [
+    Module {
+        name: "solver",
+        level: "2",
+        most_inlined: Some(175),
+        wasm_level: "-O3",
+        most_copied: 112,
+    },
+    Module { name: "splines", level: "3", most_inlined: None, wasm_level: "-O3", most_copied: 128 },
+    Module { name: "formats", level: "z", most_inlined: None, wasm_level: "-Oz", most_copied: 0 },
+];
 
 /// What every browser since March 2023 and Node 18 have of WebAssembly; Rust's compiler uses no more.
 /// With `simd128` the integrals take some two thirds of the time.
@@ -54,8 +77,8 @@ pub(crate) fn build() -> Result<PathBuf, String> {
         fs::create_dir_all(folder).map_err(|error| at(folder, &error))?;
     }
     run(Command::new("npm").current_dir(&source).args(["ci", "--no-audit", "--no-fund"]))?;
-    for (name, level, wasm_level, most_copied) in MODULES {
-        module(name, level, wasm_level, most_copied)?;
+    for module in &MODULES {
+        module.build()?;
     }
     let rows = source.join("js/wasm/catalogue.ts");
     let catalogue = catalogue().map_err(|error| error.to_string())?;
@@ -63,7 +86,7 @@ pub(crate) fn build() -> Result<PathBuf, String> {
     scripts(&package)?;
     let wasm = package.join("wasm");
     fs::create_dir_all(&wasm).map_err(|error| at(&wasm, &error))?;
-    for (name, ..) in MODULES {
+    for Module { name, .. } in &MODULES {
         for file in [format!("{name}.d.ts"), format!("{name}_bg.wasm")] {
             copy(&source.join("js/wasm").join(&file), &wasm.join(&file))?;
         }
@@ -117,38 +140,47 @@ pub(crate) fn script(package: &Path, script: &str) -> Result<(), String> {
     run(command.env("FAIRCURVE_PACKAGE", package))
 }
 
-/// One module: compiled, bound, optimised.
-fn module(name: &str, level: &str, wasm_level: &str, most_copied: usize) -> Result<(), String> {
-    let flags = std::env::var("WASM_CARGO_FLAGS").unwrap_or_default();
-    let mut cargo = Command::new("cargo");
-    cargo
-        .current_dir(root())
-        .args(["build", "--profile", "wasm", "--target", TARGET, "-p", "faircurve-wasm"])
-        .args(["--no-default-features", "--features", name])
-        .args(flags.split_whitespace())
-        .env("CARGO_PROFILE_WASM_OPT_LEVEL", level)
-        .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS", "-Ctarget-feature=+simd128");
-    if let Some(compiler) = std::env::var_os("FAIRCURVE_WASM_RUSTC") {
-        cargo.env("RUSTC", compiler).env("RUSTC_BOOTSTRAP", "1");
+impl Module {
+    /// Compiles it, binds it, optimises it.
+    fn build(&self) -> Result<(), String> {
+        let Module { name, level, most_inlined, wasm_level, most_copied } = *self;
+        let inlined = most_inlined
+            .map_or_else(String::new, |most| format!(" -Cllvm-args=-inline-threshold={most}"));
+        let compiled_with = format!("-Ctarget-feature=+simd128{inlined}");
+        let flags = std::env::var("WASM_CARGO_FLAGS").unwrap_or_default();
+        let mut cargo = Command::new("cargo");
+        cargo
+            .current_dir(root())
+            .args(["build", "--profile", "wasm", "--target", TARGET, "-p", "faircurve-wasm"])
+            .args(["--no-default-features", "--features", name])
+            .args(flags.split_whitespace())
+            .env("CARGO_PROFILE_WASM_OPT_LEVEL", level)
+            .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS", compiled_with);
+        if let Some(compiler) = std::env::var_os("FAIRCURVE_WASM_RUSTC") {
+            cargo.env("RUSTC", compiler).env("RUSTC_BOOTSTRAP", "1");
+        }
+        run(&mut cargo)?;
+        let built = target_folder().join(TARGET).join("wasm/faircurve_wasm.wasm");
+        let mut bindgen = Bindgen::new();
+        bindgen.input_path(&built).out_name(name).typescript(true);
+        bindgen.web(true).map_err(|error| error.to_string())?;
+        bindgen
+            .omit_default_module_path(true)
+            .remove_name_section(true)
+            .remove_producers_section(true);
+        let folder = source().join("js/wasm");
+        bindgen.generate(&folder).map_err(|error| format!("wasm-bindgen: {error:#}"))?;
+        let file = folder.join(format!("{name}_bg.wasm"));
+        if most_copied > 0 {
+            copies::spell_out(&file, most_copied)?;
+        }
+        let features = FEATURES.map(|feature| format!("--enable-{feature}"));
+        run(npx("wasm-opt")
+            .arg(&file)
+            .args(features)
+            .args([wasm_level, ONE_CALLER, "200", "-o"])
+            .arg(&file))
     }
-    run(&mut cargo)?;
-    let built = target_folder().join(TARGET).join("wasm/faircurve_wasm.wasm");
-    let mut bindgen = Bindgen::new();
-    bindgen.input_path(&built).out_name(name).typescript(true);
-    bindgen.web(true).map_err(|error| error.to_string())?;
-    bindgen.omit_default_module_path(true).remove_name_section(true).remove_producers_section(true);
-    let folder = source().join("js/wasm");
-    bindgen.generate(&folder).map_err(|error| format!("wasm-bindgen: {error:#}"))?;
-    let file = folder.join(format!("{name}_bg.wasm"));
-    if most_copied > 0 {
-        copies::spell_out(&file, most_copied)?;
-    }
-    let features = FEATURES.map(|feature| format!("--enable-{feature}"));
-    run(npx("wasm-opt")
-        .arg(&file)
-        .args(features)
-        .args([wasm_level, ONE_CALLER, "200", "-o"])
-        .arg(&file))
 }
 
 /// A program of the package's npm dependencies.

@@ -253,6 +253,12 @@ impl RunPlace {
         around(self.first_node + along, nodes)
     }
 
+    /// The node that the run's first segment in the contour's direction leaves.
+    fn first_segment(&self, run: &Run, nodes: usize) -> usize {
+        let last = run.segment_count() - 1;
+        self.segment_of(run, if self.reversed { last } else { 0 }, nodes)
+    }
+
     /// The node that segment `i` of the run leaves, in the contour's direction.
     fn segment_of(&self, run: &Run, i: usize, nodes: usize) -> usize {
         let count = run.segment_count();
@@ -458,20 +464,27 @@ impl Plan {
     pub fn assemble(&self, solved: Vec<RunSolution>) -> Solution {
         let (n, segments) = (self.nodes.len(), self.node_segments());
         let mut report = SolveReport { adapted: self.adapted.clone(), ..SolveReport::default() };
-        let mut placed: Vec<Option<Segment>> = (0..segments).map(|_| None).collect();
-        for ((place, run), solution) in self.places.iter().zip(&self.runs).zip(solved) {
+        // By the nodes that they leave, from the first run's first one on and around; lines between runs.
+        let first = |(place, run): (&RunPlace, &Run)| place.first_segment(run, n);
+        let start = match (self.closed, self.places.first().zip(self.runs.first())) {
+            (true, Some(run)) => first(run),
+            _ => 0,
+        };
+        let mut placed: Vec<Segment> = Vec::with_capacity(segments);
+        for ((place, run), mut solution) in self.places.iter().zip(&self.runs).zip(solved) {
             let node_of = |i: usize| place.node_of(run, i, n);
             let segment_of = |i: usize| place.segment_of(run, i, n);
-            let solved = solution.segments.into_iter().take(run.segment_count());
-            for (i, mut segment) in solved.enumerate() {
-                if place.reversed {
-                    segment = segment.reversed();
-                }
-                let node = segment_of(i);
-                let (start, end) = self.ends_of(node);
-                segment.move_to(start, end, self.unit);
-                placed[node] = Some(segment);
+            self.draw_lines(&mut placed, start, around(first((place, run)) + n - start, n));
+            if place.reversed {
+                solution.segments.reverse();
+                solution.segments.iter_mut().for_each(|segment| *segment = segment.reversed());
             }
+            solution.segments.truncate(run.segment_count());
+            for (i, segment) in solution.segments.iter_mut().enumerate() {
+                let (from, to) = self.ends_of(around(start + placed.len() + i, n));
+                segment.move_to(from, to, self.unit);
+            }
+            placed.append(&mut solution.segments);
             let input_place = |place: Place| match place {
                 Place::Knot(i) => Place::Knot(self.nodes[node_of(i)].first),
                 Place::Segment(i) => Place::Segment(self.nodes[segment_of(i)].last),
@@ -504,6 +517,8 @@ impl Plan {
         sort_by(&mut report.relaxed, |a, b| order(a).cmp(&order(b)));
         report.relaxed.dedup_by_key(|r| (r.place, r.asked));
         sort_by(&mut report.adapted, |a, b| a.place.cmp(&b.place));
+        self.draw_lines(&mut placed, start, segments);
+        placed.rotate_right(start);
         let placed = self.fill_in(placed);
         let knots = self.solved_knots(&placed, &report);
         let curve = if placed.is_empty() && self.points.len() == 1 {
@@ -524,20 +539,19 @@ impl Plan {
         (self.points[point], self.points[around(point + 1, self.points.len())])
     }
 
-    /// The segments of all the input's points, of those between nodes: lines where there is none, and between
-    /// coincident knots segments of length 0.
-    fn fill_in(&self, placed: Vec<Option<Segment>>) -> Vec<Segment> {
+    /// Draws lines until there are `count` segments from node `start` on.
+    fn draw_lines(&self, placed: &mut Vec<Segment>, start: usize, count: usize) {
+        while placed.len() < count {
+            let (from, to) = self.ends_of(around(start + placed.len(), self.nodes.len()));
+            placed.push(Segment::line(from, to));
+        }
+    }
+
+    /// The segments of all the input's points, of those between nodes: between coincident knots segments of
+    /// length 0.
+    fn fill_in(&self, placed: Vec<Segment>) -> Vec<Segment> {
         let count = self.points.len();
         let total = if self.closed { count } else { count - 1 };
-        let line = |node| {
-            let (start, end) = self.ends_of(node);
-            Segment::line(start, end)
-        };
-        let placed: Vec<Segment> = placed
-            .into_iter()
-            .enumerate()
-            .map(|(node, segment)| segment.unwrap_or_else(|| line(node)))
-            .collect();
         if placed.len() == total {
             return placed;
         }
@@ -609,11 +623,16 @@ fn check(contour: &Contour) -> Result<(), InputError> {
     }
     let fits = |coordinate: f64| coordinate.abs() <= LARGEST_COORDINATE;
     for (index, knot) in contour.knots.iter().enumerate() {
-        let given =
-            [knot.curvature_in, knot.curvature_out, knot.tension_in, knot.tension_out, knot.curl];
-        let numbers_hold = given.iter().all(|number| number.is_none_or(f64::is_finite));
-        let has_tangent = knot.tangent_in.is_some() || knot.tangent_out.is_some();
-        if !(fits(knot.point.x) && fits(knot.point.y) && numbers_hold) || has_tangent {
+        let place_holds = fits(knot.point.x) && fits(knot.point.y);
+        let is_all = knot.tangent_in.is_none()
+            && knot.tangent_out.is_none()
+            && knot.curvature_in.is_none()
+            && knot.curvature_out.is_none()
+            && knot.tension_in.is_none()
+            && knot.tension_out.is_none()
+            && knot.curl.is_none();
+        // Most knots have nothing else.
+        if !(place_holds && is_all) {
             check_knot(knot, index)?;
         }
     }
@@ -1000,7 +1019,7 @@ fn marks(run: &Run) -> Vec<Mark> {
 }
 
 /// The place `index` of a list of `count`, counted around its end at most once.
-fn around(index: usize, count: usize) -> usize {
+pub(crate) fn around(index: usize, count: usize) -> usize {
     if index < count { index } else { index - count }
 }
 

@@ -286,12 +286,12 @@ impl<'a> TangentSystem<'a> {
 
     /// Fills in the knots' scales.
     fn scale(&mut self) {
-        let chord = |segment: &MappedSegment| segment.context.chord;
-        let mut before = if self.closed { self.segments.last().map(chord) } else { None };
+        let root = |segment: &MappedSegment| segment.context.chord.sqrt();
+        let mut before = if self.closed { self.segments.last().map(root) } else { None };
         for (i, knot) in self.knots.iter_mut().enumerate() {
-            let after = self.segments.get(i).map(chord);
+            let after = self.segments.get(i).map(root);
             if let (Some(before), Some(after)) = (before, after) {
-                knot.scales = [(after / before).sqrt(), (before / after).sqrt()];
+                knot.scales = [after / before, before / after];
             }
             before = after;
         }

@@ -5,7 +5,7 @@ use std::fmt;
 use super::curvature_map::SegmentContext;
 use super::shape::SegmentEnds;
 use crate::frame::{ChordAngles, direction, wrap_angle};
-use crate::plan::Run;
+use crate::plan::{Run, around};
 use crate::spline::{Adaptation, Effort, Place, Stage};
 
 /// A way to find the tangents of a run.
@@ -80,7 +80,7 @@ impl Tangents {
 
 /// The chord and the tensions of a segment.
 pub(crate) fn context(run: &Run, segment: usize) -> SegmentContext {
-    let (start, end) = (&run.knots[segment], &run.knots[(segment + 1) % run.knots.len()]);
+    let (start, end) = (&run.knots[segment], &run.knots[around(segment + 1, run.knots.len())]);
     let (is_first, is_last) = (segment == 0, segment + 1 == run.segment_count());
     SegmentContext {
         chord: run.chord(segment).hypot(),
