@@ -64,8 +64,8 @@ function native(counts) {
 }
 
 function solving() {
-  // Levien's spline-research, JavaScript, 64 knots, µs, as measured beside npm's spiro in November 2026.
-  const RESEARCH = { bespoke: 594, euler: 1239 };
+  // Levien's spline-research, JavaScript, µs, as measured beside npm's spiro in November 2026.
+  const RESEARCH = [["bespoke", 64, 594], ["bespoke", 1024, 15700], ["euler", 64, 1239], ["euler", 1024, 26861]];
   heading("Times, µs, closed contours of all-g4 knots (Node): solve; solve and Béziers");
   const counts = [16, 64, 256];
   const rust = native(counts);
@@ -80,17 +80,18 @@ function solving() {
     };
     const ours = [() => solve({ contours }).contours[0].free(), drawn];
     const others = [() => spiro.spiroToArcs(theirs, true), () => spiro.spiroToBezier(theirs, true)];
-    const all = times([...ours, ...others]);
-    const ratios = [all[2] / all[0], all[3] / all[1]].map((ratio) => ratio.toFixed(1));
+    // Each with what it is compared to, and nothing else between them.
+    const [solves, draws] = [0, 1].map((i) => times([ours[i], others[i]]));
+    const ratios = [solves, draws].map(([own, other]) => (other / own).toFixed(1));
     const pair = ([a, b]) => `${a.toFixed(0).padStart(5)} ${b.toFixed(0).padStart(6)}   `;
-    console.log(
-      `${String(n).padStart(5)} ${pair(rust[i])} ${pair(all.slice(0, 2))} ${pair(all.slice(2))} ${ratios.join(" ")}`,
-    );
+    const [own, other] = [0, 1].map((who) => pair([solves[who], draws[who]]));
+    console.log(`${String(n).padStart(5)} ${pair(rust[i])} ${own} ${other} ${ratios.join(" ")}`);
   });
-  for (const [spline, theirs] of Object.entries(RESEARCH)) {
-    const contours = [{ spline, closed: true, knots: outline(64) }];
+  for (const [spline, count, theirs] of RESEARCH) {
+    const contours = [{ spline, closed: true, knots: outline(count) }];
     const [ours] = times([() => solve({ contours }).contours[0].free()]);
-    console.log(`64 knots, ${spline}, solve alone: ${ours.toFixed(0)}; spline-research ${theirs}; ratio ${(theirs / ours).toFixed(1)}`);
+    const ratio = (theirs / ours).toFixed(1);
+    console.log(`${count} knots, ${spline}, solve alone: ${ours.toFixed(0)}; spline-research ${theirs}; ratio ${ratio}`);
   }
 }
 

@@ -34,6 +34,35 @@ fn lengths_are_those_of_another_program() {
     }
 }
 
+/// First and last legs within a right angle of the chord, short ones and long ones.
+#[test]
+fn what_is_known_before_a_curve_is_measured_is_what_measuring_tells() {
+    let legs = [0.05, 0.5, 0.9, 2.0].into_iter().flat_map(|size| {
+        (-6..=6).map(move |turn| Complex64::from_polar(size, f64::from(turn) * PI / 13.0))
+    });
+    let legs: Vec<Complex64> = legs.collect();
+    let mut unmeasured = 0;
+    for (first, last) in legs.iter().flat_map(|first| legs.iter().map(move |last| (first, last))) {
+        let curve = measured((first.re, first.im), (1.0 - last.re, -last.im));
+        let bound = curve.length_bound();
+        unmeasured += i32::from(curve.arcs.get().is_none());
+        let [start, end] = curve.ends();
+        assert!((start.direction - first.arg()).abs() < 1e-15, "{first} {last}");
+        let told = Arcs::of(&curve.curve, start.direction);
+        assert!((end.direction - told.direction).abs() < 1e-14, "{first} {last}");
+        assert!(curve.length() == told.length && curve.length() <= bound, "{first} {last}");
+    }
+    // Those whose middle leg points forwards, too: of 52 · 52.
+    assert!(unmeasured > 1000, "{unmeasured}");
+}
+
+#[test]
+fn what_has_no_finite_length_is_known_at_once() {
+    let huge = measured((1e308, 1e308), (1e308, -1e308));
+    assert!(!huge.length_bound().is_finite(), "{}", huge.length_bound());
+    assert!(measured((f64::NAN, 0.0), (0.5, 0.1)).length_bound().is_nan());
+}
+
 /// Stretches of all sizes, of curves with loops and cusps: those near a cusp are never gentle.
 #[test]
 fn gentle_stretches_are_as_long_as_their_parts() {
