@@ -16,7 +16,7 @@
  * @module
  */
 import type { PathContext } from "./beziers.js";
-import { solve } from "./index.js";
+import { solveContour } from "./index.js";
 import type { Join, Knot, Params } from "./document.js";
 
 /** What d3 calls to draw. */
@@ -89,7 +89,7 @@ abstract class Fair implements CurveGenerator {
     if (points.length === 2) context.lineTo(points[1]!.x, points[1]!.y);
     if (points.length > 2) {
       const { spline, params, accuracy } = choices;
-      const curve = solve({ spline, params, contours: [{ closed, knots: points }] }).contours[0]!;
+      const curve = solveContour({ spline, params, closed, knots: points });
       curve.beziers(accuracy).draw(context, 1);
       curve.free();
     }

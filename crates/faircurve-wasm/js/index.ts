@@ -10,7 +10,7 @@
  */
 import { Curve } from "./curve.js";
 import { checked, FaircurveError } from "./error.js";
-import type { Contour, Document, Glyph, Join } from "./document.js";
+import type { Contour, Document, Glyph, Join, SplineChoice } from "./document.js";
 import { knotRows, splineOf, wrongType } from "./knots.js";
 import { wasm } from "./solver.js";
 
@@ -80,33 +80,45 @@ export function solve(document: Document, options: SolveOptions = {}): Solution 
   if (all === undefined) {
     throw new FaircurveError("the document has neither `glyphs` nor `contours`", 'add `"contours": […]`');
   }
+  if (!Array.isArray(all)) throw wrongType("`glyphs`", "a list", all);
   const solved: SolvedGlyph[] = [];
   const curves: Curve[] = [];
   for (let index = 0; index < all.length; index++) {
     const glyph = solveGlyph(all[index]!, () => (glyphs ? glyphPlace(all[index]!, index) : ""), document, options);
     solved.push(glyph);
-    curves.push(...glyph.contours);
+    for (const curve of glyph.contours) curves.push(curve);
   }
   return { glyphs: solved, contours: curves };
 }
 
-function glyphPlace({ name, layer }: Glyph, index: number): string {
+function glyphPlace(glyph: Glyph | undefined, index: number): string {
+  const { name, layer } = glyph ?? {};
   return `${name ? `glyph \`${name}\`` : `glyph ${index}`}, ${layer ? `layer \`${layer}\`, ` : ""}`;
 }
 
 /** `place`, where the words that say it are wanted. */
 function solveGlyph(glyph: Glyph, place: () => string, document: Document, options: SolveOptions): SolvedGlyph {
+  if (!Array.isArray(glyph?.contours)) throw wrongType(`${place()}\`contours\``, "a list", glyph?.contours);
   const contours: Curve[] = [];
   for (let index = 0; index < glyph.contours.length; index++) {
     const at = () => `${place()}contour ${index}`;
-    contours.push(solveContour(glyph.contours[index]!, at, document, options));
+    contours.push(solveContour(glyph.contours[index]!, document, options, at));
   }
   return { name: glyph.name ?? "", layer: glyph.layer ?? "", contours };
 }
 
-function solveContour(contour: Contour, place: () => string, document: Document, options: SolveOptions): Curve {
-  if (!Array.isArray(contour?.knots)) throw wrongType(`${place()}, \`knots\``, "a list", contour?.knots);
-  const { name, built, solver } = checked(() => splineOf(contour, document));
+/**
+ * The curve of one contour; its errors begin with the place, where there is more than this one.
+ * @internal
+ */
+export function solveContour(
+  contour: Contour,
+  otherwise: SplineChoice = {},
+  options: SolveOptions = {},
+  place?: () => string,
+): Curve {
+  if (!Array.isArray(contour?.knots)) throw wrongType(`${place ? `${place()}, ` : ""}\`knots\``, "a list", contour?.knots);
+  const { name, built, solver } = checked(() => splineOf(contour, otherwise));
   const rows = knotRows(contour.knots, place);
   const { closed = false } = contour;
   const { effort = 1, noLoops = false } = options;

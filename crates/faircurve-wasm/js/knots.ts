@@ -106,7 +106,7 @@ function number(value: unknown, key: string): number {
 
 export function wrongType(what: string, expected: string, got: unknown): FaircurveError {
   const kind =
-    got === null ? "null" : Array.isArray(got) ? "a list" : typeof got === "object" ? "an object" : `a ${typeof got}`;
+    got === undefined ? "left out" : got === null ? "null" : Array.isArray(got) ? "a list" : typeof got === "object" ? "an object" : `a ${typeof got}`;
   return new FaircurveError(`${what} must be ${expected}, not ${kind}`);
 }
 

@@ -10,7 +10,7 @@
  * @module
  */
 import type { Join, Knot as OwnKnot } from "./document.js";
-import { type Curve, solve } from "./index.js";
+import { type Curve, solveContour } from "./index.js";
 import { SpiroArc, type SpiroK } from "./spiro-arc.js";
 
 export { SpiroArc, type SpiroK };
@@ -136,7 +136,7 @@ export function spiroToBezierOnContext<C extends IBezierContext>(
 function solved(spiros: Knot<never>[], closed: boolean): Curve {
   // A type that isn't known goes on as it is, so that the error names it.
   const knots = spiros.map(({ x, y, type }): OwnKnot => ({ x, y, join: JOINS[type] ?? (type as Join) }));
-  return solve({ contours: [{ closed, knots }] }).contours[0]!;
+  return solveContour({ closed, knots });
 }
 
 /** Every segment's Béziers, and the callback of the knot at its end. Knots are ends of Béziers to the bit. */

@@ -72,6 +72,11 @@ test("errors have the program's words and hints", () => {
   wrong(() => one({ knots: [{ x: "0", y: 0 }] }), "contour 0, knot 0: `x` must be a number, not a string");
   const glyphs = [{ contours: [{ knots }] }, { name: "a", layer: "Fore", contours: [{ knots }, { knots: [{ x: 1e99, y: 0 }] }] }];
   wrong(() => solve({ glyphs }), "glyph `a`, layer `Fore`, contour 1: knot 0 lies beyond 1e55 units");
+  wrong(() => solve({ glyphs: { a: 1 } }), "`glyphs` must be a list, not an object");
+  wrong(() => solve({ glyphs: [{ name: "a" }] }), "glyph `a`, `contours` must be a list, not left out");
+  wrong(() => solve({ glyphs: [null] }), "glyph 0, `contours` must be a list, not left out");
+  wrong(() => solve({ contours: 5 }), "`contours` must be a list, not a number");
+  wrong(() => solve({ contours: [{}] }), "contour 0, `knots` must be a list, not left out");
   wrong(() => solve({}), "the document has neither `glyphs` nor `contours`");
   wrong(() => one({ knots }).convert({ fit: "best" }), "there is no fit `best`");
 });
@@ -110,7 +115,7 @@ test("a live contour follows edits, refuses nonsense, undoes", () => {
   const same = solve({ contours: [live.contour] }).contours[0];
   assert.ok(Math.abs(same.length - live.curve.length) < 1e-6);
   live.move(0, NaN, 0);
-  assert.throws(() => live.curve, { name: "FaircurveError", message: "contour 0: x of knot 0 is not a finite number" });
+  assert.throws(() => live.curve, { name: "FaircurveError", message: "x of knot 0 is not a finite number" });
   assert.throws(() => live.move(99, 0, 0), { message: "there is no knot 99" });
   live.move(0, 100, 0);
   live.setSpline({ spline: "euler" });

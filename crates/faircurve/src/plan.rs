@@ -475,11 +475,11 @@ impl Plan {
             let node_of = |i: usize| place.node_of(run, i, n);
             let segment_of = |i: usize| place.segment_of(run, i, n);
             self.draw_lines(&mut placed, start, around(first((place, run)) + n - start, n));
+            solution.segments.truncate(run.segment_count());
             if place.reversed {
                 solution.segments.reverse();
                 solution.segments.iter_mut().for_each(|segment| *segment = segment.reversed());
             }
-            solution.segments.truncate(run.segment_count());
             for (i, segment) in solution.segments.iter_mut().enumerate() {
                 let (from, to) = self.ends_of(around(start + placed.len() + i, n));
                 segment.move_to(from, to, self.unit);
@@ -623,16 +623,16 @@ fn check(contour: &Contour) -> Result<(), InputError> {
     }
     let fits = |coordinate: f64| coordinate.abs() <= LARGEST_COORDINATE;
     for (index, knot) in contour.knots.iter().enumerate() {
-        let place_holds = fits(knot.point.x) && fits(knot.point.y);
-        let is_all = knot.tangent_in.is_none()
+        let place_fits = fits(knot.point.x) && fits(knot.point.y);
+        // Most knots have nothing else.
+        let place_is_all = knot.tangent_in.is_none()
             && knot.tangent_out.is_none()
             && knot.curvature_in.is_none()
             && knot.curvature_out.is_none()
             && knot.tension_in.is_none()
             && knot.tension_out.is_none()
             && knot.curl.is_none();
-        // Most knots have nothing else.
-        if !(place_holds && is_all) {
+        if !(place_fits && place_is_all) {
             check_knot(knot, index)?;
         }
     }
