@@ -924,7 +924,7 @@ fn canonical(run: Run, first_node: usize, nodes: usize) -> (Run, usize, bool) {
     let keep = order.is_le();
     let knots = match keep {
         true => from(&run.knots, a).copied().collect(),
-        false => (0..n).map(|i| reversed_knot(run.knots[n - 1 - around(b + i, n)])).collect(),
+        false => (0..n).map(|i| reversed_knot(run.knots[back(b + i)])).collect(),
     };
     // Knot b of the reversed list is knot n − 1 − b; the walk ends at the one after it.
     let first = if keep { a } else { around(n - b, n) };

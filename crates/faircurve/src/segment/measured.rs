@@ -102,6 +102,7 @@ impl<C: ParametricCurve> Measured<C> {
     fn arcs(&self) -> &Arcs {
         self.arcs.get_or_init(|| Arcs::of(&self.curve, self.ends[0].direction))
     }
+
     /// The last panel of which `key` holds, as it does of those up to some place, and the one after it.
     fn panel_at(&self, key: impl Fn(&Panel) -> bool) -> (Panel, Option<&Panel>) {
         let later = &self.arcs().later;
